@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/base/small_size.h"
+#include "core/base/threads.h"
 #include "irk/scalar.h"
 
 namespace irk {
@@ -28,13 +29,15 @@ inline Eight eightFrom(const double* y) {
 
 }  // namespace detail
 
-// What the sums of a product begin with: `(i, j)` for one of them, `eight(i, j)` for those of the rows i to i + 7.
+// What the sums of a product begin with: `(i, j)` for one of them, `eight(i, j)` for those of the rows i to i + 7;
+// `from(i)` is the same for a product whose first row is i.
 
 /// The sums begin with 0.
 template <class Real>
 struct FromZero {
   Real operator()(Index, Index) const { return Real(0); }
   detail::Eight eight(Index, Index) const { return {}; }
+  FromZero from(Index) const { return {}; }
 };
 /// The sums begin with y_i in each column.
 template <class Real>
@@ -42,6 +45,7 @@ struct FromColumn {
   const Real* y;
   Real operator()(Index i, Index) const { return y[i]; }
   detail::Eight eight(Index i, Index) const { return detail::eightFrom(y + i); }
+  FromColumn from(Index i) const { return {y + i}; }
 };
 /// The sums begin with y_i + factor_j slope_i.
 template <class Real>
@@ -51,6 +55,7 @@ struct FromLine {
   detail::Eight eight(Index i, Index j) const {
     return detail::eightFrom(y + i) + factors[j] * detail::eightFrom(slope + i);
   }
+  FromLine from(Index i) const { return {y + i, slope + i, factors}; }
 };
 
 namespace detail {
@@ -200,6 +205,24 @@ template <class Real, class RightHand>
 [[gnu::always_inline]] inline void inlinedProduct(const Real* A, Index stride, Index rows, const RightHand& B,
                                                   Real* out, Index out_stride) {
   inlinedProduct(A, stride, rows, B, out, out_stride, FromZero<Real>());
+}
+
+/// The same on up to `threads` threads, each with its part of the rows.
+template <class Real, class RightHand, class Start>
+[[gnu::always_inline]] inline void productOnThreads(int threads, const Real* A, Index stride, Index rows,
+                                                    const RightHand& B, Real* out, Index out_stride,
+                                                    const Start& start) {
+  if (threads <= 1) return inlinedProduct(A, stride, rows, B, out, out_stride, start);
+  inParts(threads, rows, [&](Index first, Index last) {
+    smallProduct(A + first, stride, last - first, B, out + first, out_stride, start.from(first));
+  });
+}
+
+/// The same with start = 0.
+template <class Real, class RightHand>
+[[gnu::always_inline]] inline void productOnThreads(int threads, const Real* A, Index stride, Index rows,
+                                                    const RightHand& B, Real* out, Index out_stride) {
+  productOnThreads(threads, A, stride, rows, B, out, out_stride, FromZero<Real>());
 }
 
 }  // namespace irk

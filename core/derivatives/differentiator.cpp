@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/base/threads.h"
 #include "core/derivatives/pattern_search.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
@@ -22,12 +23,13 @@ constexpr double kLooser = 10;
 
 template <class Real>
 Differentiator<Real>::Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms,
-                                     Storage storage, Matrices matrices, std::shared_ptr<Scratch> scratch)
+                                     Storage storage, Matrices matrices, std::shared_ptr<Scratch> scratch, int threads)
     : system_(system),
       source_(source),
       sizes_(system.sizes()),
       terms_(catalogue<JacobianTerms>()[terms]),
       storage_(storage),
+      threads_(threads),
       scratch_(scratch ? std::move(scratch) : std::make_shared<Scratch>(sizes_, source)),
       zero_a_(Vec<Real>::Zero(sizes_.nu)) {
   if (scratch_->source != source) throw Misuse("a scratch for derivatives of another source");
@@ -111,7 +113,9 @@ void Differentiator<Real>::setPattern() {
                                 : ColouredDirections::dense(group->directions, n);
     most = std::max(most, group->directions.size());
   }
-  if (source_ != DerivativeSource::kAutomatic) {
+  if (source_ == DerivativeSource::kAutomatic) {
+    reserveForThreads();
+  } else {
     y_.resize(static_cast<Index>(most));
     delta_.resize(static_cast<Index>(most));
   }
@@ -159,8 +163,7 @@ void Differentiator<Real>::evaluateGroup(const Group& group, Level level, const 
     scratch_->magnitude.setZero();
   }
   if (source_ == DerivativeSource::kAutomatic) {
-    scratch_->dual.copy(p);
-    evaluateDual(group.coloured, level, out);
+    evaluateDual(group.coloured, level, p, out);
   } else {
     scratch_->real.copy(p);
     evaluateDifferences(group.coloured, level, out);
@@ -223,26 +226,61 @@ void Differentiator<Real>::check(const Change& change, Linearization<Real>& out)
   }
 }
 
-// The colour after the last one stands for the check.
+/// The number of dual evaluations, with the check.
 template <class Real>
-void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out) {
-  auto& dual = scratch_->dual;
-  const auto at = dual.at(Dual<Real>(t_));
-  const VecView<Dual<Real>> r = dual.residual();
-  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
-  for (std::size_t first = 0; first < colours; first += kChunk) {
-    const std::size_t count = std::min(kChunk, colours - first);
+std::size_t Differentiator<Real>::evaluationsOf(const ColouredDirections& group) {
+  return (group.colours() + kChunk) / kChunk;
+}
+
+/// Makes buffers for as many evaluations at a time as there are threads and the largest group has evaluations.
+template <class Real>
+void Differentiator<Real>::reserveForThreads() {
+  std::size_t evaluations = 0;
+  for (const Group* group : {&at_a_, &at_zero_, &stiffness_}) {
+    evaluations = std::max(evaluations, evaluationsOf(group->coloured));
+  }
+  const std::size_t wanted = std::min(evaluations, static_cast<std::size_t>(threads_));
+  while (scratch_->others.size() + 1 < wanted) scratch_->others.emplace_back(sizes_);
+}
+
+/// Evaluates r along the colours from `first` on, kChunk at most, at the point in `at`. The colour after the last one
+/// stands for the check.
+template <class Real>
+void Differentiator<Real>::evaluateAlong(const ColouredDirections& group, std::size_t first, Level level,
+                                         PointBuffers<Dual<Real>>& at) {
+  const std::size_t count = std::min(kChunk, group.colours() + (looked_ ? 1 : 0) - first);
+  const auto set = [&](const auto& along) {
     for (std::size_t c = 0; c < count; ++c) {
       for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
-        dual.component(group.directions[i]).d[c] = Real(group.weight(first + c, i));
+        at.component(group.directions[i]).d[c] = along(first + c, i);
       }
     }
-    system_.evaluate(level, at, r);
-    for (std::size_t c = 0; c < count; ++c) {
-      take(
-          group, first + c, [&](Index row) -> const Real& { return r[row].d[c]; }, out);
-      for (std::size_t i = group.begin(first + c); i < group.end(first + c); ++i) {
-        dual.component(group.directions[i]).d[c] = Real(0);
+  };
+  set([&group](std::size_t colour, std::size_t i) { return Real(group.weight(colour, i)); });
+  system_.evaluate(level, at.at(Dual<Real>(t_)), at.residual());
+  set([](std::size_t, std::size_t) { return Real(0); });
+}
+
+// As many evaluations at a time as there are buffers. The sums of the check are made in the order of the colours,
+// whatever the number of threads.
+template <class Real>
+void Differentiator<Real>::evaluateDual(const ColouredDirections& group, Level level, const Point<Real>& p,
+                                        Linearization<Real>& out) {
+  const std::size_t colours = group.colours() + (looked_ ? 1 : 0);
+  const std::size_t evaluations = (colours + kChunk - 1) / kChunk;
+  const std::size_t buffers = std::min({evaluations, static_cast<std::size_t>(threads_), scratch_->others.size() + 1});
+  for (std::size_t done = 0; done < evaluations; done += buffers) {
+    const std::size_t now = std::min(buffers, evaluations - done);
+    onThreads(threads_, now, [&](std::size_t i) {
+      if (done == 0) dualOf(i).copy(p);
+      evaluateAlong(group, (done + i) * kChunk, level, dualOf(i));
+    });
+    for (std::size_t i = 0; i < now; ++i) {
+      const VecView<Dual<Real>> r = dualOf(i).residual();
+      const std::size_t first = (done + i) * kChunk;
+      for (std::size_t colour = first; colour < std::min(first + kChunk, colours); ++colour) {
+        take(
+            group, colour, [&](Index row) -> const Real& { return r[row].d[colour - first]; }, out);
       }
     }
   }

@@ -70,6 +70,7 @@ struct DifferentiatorScratch {
         magnitude(n.n()) {}
   DerivativeSource source;
   PointBuffers<Dual<Real>> dual;
+  std::vector<PointBuffers<Dual<Real>>> others;  ///< for the other threads
   PointBuffers<Real> real;
   Vec<Real> base;
   Vec<Real> expected, magnitude;  ///< by row, for the check: the sum of its terms, and of their magnitudes
@@ -79,7 +80,8 @@ struct DifferentiatorScratch {
 /// number of directions depends on the fullest row, not on n. Every evaluation compares the derivative along one
 /// random combination of all directions with the assembled matrices. If they differ, for example after a switch of
 /// modes, the pattern is searched again and grows. Use one object, and one scratch, per thread. Allocates only when the
-/// pattern changes.
+/// pattern changes. Exact derivatives are evaluated on several threads if asked for: each evaluation of r needs buffers
+/// of its own, nine numbers for each component.
 template <class Real>
 class Differentiator {
  public:
@@ -89,7 +91,7 @@ class Differentiator {
   /// multiprecision, and for a scratch of another source.
   Differentiator(const System<Real>& system, DerivativeSource source, JacobianTerms terms = JacobianTerms::kFull,
                  Storage storage = Storage::kDense, Matrices matrices = Matrices::kAll,
-                 std::shared_ptr<Scratch> scratch = nullptr);
+                 std::shared_ptr<Scratch> scratch = nullptr, int threads = 1);
   const std::shared_ptr<Scratch>& scratch() const { return scratch_; }
 
   /// Evaluates the matrices at p. `out` gets the present pattern if it has another one. Derivatives that are not
@@ -116,7 +118,11 @@ class Differentiator {
   void setPattern();
   void differentiate(Level level, const Point<Real>& p, Linearization<Real>& out);
   void evaluateGroup(const Group& group, Level level, const Point<Real>& p, Linearization<Real>& out);
-  void evaluateDual(const ColouredDirections& group, Level level, Linearization<Real>& out);
+  PointBuffers<Dual<Real>>& dualOf(std::size_t i) { return i == 0 ? scratch_->dual : scratch_->others[i - 1]; }
+  static std::size_t evaluationsOf(const ColouredDirections& group);
+  void reserveForThreads();
+  void evaluateAlong(const ColouredDirections& group, std::size_t first, Level level, PointBuffers<Dual<Real>>& at);
+  void evaluateDual(const ColouredDirections& group, Level level, const Point<Real>& p, Linearization<Real>& out);
   void evaluateDifferences(const ColouredDirections& group, Level level, Linearization<Real>& out);
   template <class Change>
   void take(const ColouredDirections& group, std::size_t colour, const Change& change, Linearization<Real>& out);
@@ -129,6 +135,7 @@ class Differentiator {
   Sizes sizes_;
   const Strategy<JacobianTerms>& terms_;
   Storage storage_;
+  int threads_;
   Group at_a_, at_zero_;  // directions differentiated at the point's a, and at a = 0
   Group stiffness_;       // directions of D2 that `constant_stiffness` evaluates only once
   std::shared_ptr<const Pattern> pattern_;

@@ -9,6 +9,7 @@
 #include "core/base/kept.h"
 #include "core/base/legendre.h"
 #include "core/base/small_product.h"
+#include "core/base/threads.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -105,21 +106,28 @@ auto Defect<Real>::among(std::int64_t first, std::int64_t count, const State<Rea
                          const StagePolynomial<Real>& stages) -> Result {
   const Real& h = stages.h;
   const Index n = sizes_.n(), nu = sizes_.nu, nx = sizes_.nx;
+  const int threads = filter_.threads();
   const Real* const W = stages.W.data();
   Result largest;
   at_.d = from.d;
   for (const std::int64_t end = first + count; first < end;) {
     const auto block = points_.block(first, std::min<std::int64_t>(end - first, kBlock));
-    smallProduct(W, n, n, block.inside, w_.data(), n);
-    smallProduct(W, n, nu, block.twice, twice_.data(), nu);
-    smallProduct(W, n, nu + nx, block.once, once_.data(), nu + nx);
+    productOnThreads(threads, W, n, n, block.inside, w_.data(), n);
+    productOnThreads(threads, W, n, nu, block.twice, twice_.data(), nu);
+    productOnThreads(threads, W, n, nu + nx, block.once, once_.data(), nu + nx);
     for (Index j = 0; j < block.count; ++j) {
       const Real theta(points_.place(first + j));
       at_.t = from.t + theta * h;
-      at_.u = from.u + h * (theta * from.v + h * twice_.col(j));
-      at_.v = from.v + h * once_.col(j).head(nu);
-      at_.x = from.x + h * once_.col(j).tail(nx);
-      at_.w = w_.col(j);
+      const auto twice = twice_.col(j), once = once_.col(j);
+      inParts(threads, nu, [&](Index i, Index k) {
+        const auto part = [i, k](auto& y) { return y.segment(i, k - i); };
+        part(at_.u) = part(from.u) + h * (theta * part(from.v) + h * part(twice));
+        part(at_.v) = part(from.v) + h * part(once);
+      });
+      inParts(threads, nx, [&](Index i, Index k) {
+        at_.x.segment(i, k - i) = from.x.segment(i, k - i) + h * once.segment(nu + i, k - i);
+      });
+      copyOnThreads(threads, w_.col(j).data(), n, at_.w.data());
       add(largest, filter_.filtered(at_, h, most_));
     }
     first += block.count;

@@ -6,6 +6,7 @@
 
 #include "core/base/legendre.h"
 #include "core/base/small_product.h"
+#include "core/base/threads.h"
 #include "core/linear/block_form.h"
 #include "irk/multiprecision.h"
 
@@ -70,6 +71,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       scheme_(scheme),
       norm_(norm),
       sizes_(system.sizes()),
+      threads_(options.threads),
       mu_(weight(scheme.tableau)),
       stages_(stages),
       make_own_([&system, &jacobian, &counters, kind = options.solver, mu = mu_] {
@@ -138,11 +140,15 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h) {
   if (solved != Outcome::kSuccess) return solved;
   const Real step = h * mu_;
   const Real* const e = e_.data();
-  for (Index i = 0; i < sizes_.nu; ++i) {
-    error_.v[i] = -step * e[i];
-    error_.u[i] = slip_[i] + step * error_.v[i];
-  }
-  for (Index i = 0; i < sizes_.nx; ++i) error_.x[i] = -step * e[sizes_.nu + i];
+  inParts(threads_, sizes_.nu, [&](Index first, Index last) {
+    for (Index i = first; i < last; ++i) {
+      error_.v[i] = -step * e[i];
+      error_.u[i] = slip_[i] + step * error_.v[i];
+    }
+  });
+  inParts(threads_, sizes_.nx, [&](Index first, Index last) {
+    for (Index i = first; i < last; ++i) error_.x[i] = -step * e[sizes_.nu + i];
+  });
   const auto& powers = system_.errorPowers().z;
   for (Index i = 0; i < sizes_.nz; ++i) {
     error_.z()[i] = powers[static_cast<std::size_t>(i)] == 2 ? Real(0) : Real(-e[sizes_.nu + sizes_.nx + i]);
@@ -156,9 +162,9 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
   const Real& h = stages.h;
   Result result;
   if (scaled_) rowScales(row_powers_, h, scales_);
-  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.n(), at_start.weights, defect_.data(), sizes_.n());
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), at_start.weights, defect_.data(), sizes_.n());
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
-  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
   const Real factor = -mu_ * h * h;
   for (Index i = 0; i < sizes_.nu; ++i) {
     slip_[i] *= factor;
@@ -206,7 +212,7 @@ template <class Real>
 auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<Real>& most) -> Result {
   Result result;
   if (scaled_) rowScales(row_powers_, h, scales_);
-  defect_ = at.w;
+  copyOnThreads(threads_, at.w.data(), at.w.size(), defect_.data());
   result.outcome = evaluateAt(pointAt(at.t, at.u, at), EquationsAt::kInside);
   if (result.outcome != Outcome::kSuccess || !raises(most)) return result;
   slip_.setZero();

@@ -57,6 +57,8 @@ class EmbeddedEstimate {
   }
   /// The component of (u, v, x, z) with the largest part in the last estimate.
   Index worstComponent() const;
+  /// Among which vector work is divided.
+  int threads() const { return threads_; }
   double mu() const { return static_cast<double>(mu_); }
   /// p of the estimate's error h^(p+1): s (s - 1 with a stage at the start), but at most the stage order plus 1.
   static int order(const Tableau<Real>& tableau);
@@ -83,6 +85,7 @@ class EmbeddedEstimate {
   const Scheme<Real>& scheme_;
   const ErrorNorm<Real>& norm_;
   Sizes sizes_;
+  int threads_;
   Real mu_;
   NewtonMatrix<Real>& stages_;
   std::function<NewtonMatrix<Real>()> make_own_;

@@ -8,6 +8,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/in_use.h"
+#include "core/base/threads.h"
 #include "core/control/stall_detector.h"
 #include "core/integration/backward.h"
 #include "core/integration/grid.h"
@@ -42,6 +43,7 @@ IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, c
     options.newton.kappa = std::numeric_limits<double>::min();
   }
   requireLegal(options, system, schemes, start);
+  if (system.sizes().n() < kThreadsFrom) options.threads = 1;
   return options;
 }
 

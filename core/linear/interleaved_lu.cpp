@@ -1,15 +1,33 @@
 #include "core/linear/interleaved_lu.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "core/base/threads.h"
 #include "core/linear/complex_arithmetic.h"
 
 namespace irk {
 namespace {
 
-constexpr std::size_t kMaxLanes = 8, kMinWidth = 4;
+constexpr std::size_t kMaxLanes = 8;
+// One lane alone would not be a vector, for which the compiler contracts other products and sums: other bits.
+constexpr std::size_t kMinWidth = 2;
+
+// Calls f with the width of a group as a constant: 2, 4 or 8.
+template <class F>
+decltype(auto) withWidth(std::size_t width, const F& f) {
+  switch (width) {
+    case 2:
+      return f(std::integral_constant<int, 2>());
+    case 4:
+      return f(std::integral_constant<int, 4>());
+    default:
+      return f(std::integral_constant<int, 8>());
+  }
+}
 
 template <int kWidth>
 struct Pack {
@@ -106,25 +124,28 @@ struct Elimination {
 
 }  // namespace
 
-InterleavedLu::InterleavedLu(std::shared_ptr<const SparseAnalysis> analysis, std::size_t matrices)
-    : analysis_(std::move(analysis)), choice_(analysis_) {
+InterleavedLu::Group::Group(std::size_t first_, std::size_t lanes_, const SparseAnalysis& analysis)
+    : first(first_),
+      lanes(lanes_),
+      width(std::max(kMinWidth, std::bit_ceil(lanes_))),
+      inverse_diagonal(static_cast<std::size_t>(analysis.n()) * 2 * width),
+      chosen_at(width),
+      work(inverse_diagonal.size()) {
+  l.reserve(2 * analysis.lowerEntries() * 2 * width);
+  u.reserve(2 * analysis.upperEntries() * 2 * width);
+}
+
+InterleavedLu::InterleavedLu(std::shared_ptr<const SparseAnalysis> analysis, std::size_t matrices, int threads)
+    : analysis_(std::move(analysis)), choice_(analysis_), threads_(threads) {
   analysis_->reserve(pivots_);
-  const auto n = static_cast<std::size_t>(analysis_->n());
-  const std::size_t l = 2 * analysis_->lowerEntries(), u = 2 * analysis_->upperEntries();
-  std::size_t widest = 0;
-  for (std::size_t first = 0; first < matrices; first += kMaxLanes) {
-    const std::size_t lanes = std::min(kMaxLanes, matrices - first);
-    const std::size_t width = lanes > kMinWidth ? kMaxLanes : kMinWidth;
-    Group group{first, lanes, width, {}, {}, std::vector<double>(n * 2 * width), std::vector<double>(width)};
-    group.l.reserve(l * 2 * width);
-    group.u.reserve(u * 2 * width);
-    groups_.push_back(std::move(group));
-    widest = std::max(widest, width);
+  const std::size_t by_thread = (matrices + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads);
+  const std::size_t most = std::min(kMaxLanes, by_thread);
+  for (std::size_t first = 0; first < matrices; first += most) {
+    groups_.emplace_back(first, std::min(most, matrices - first), *analysis_);
   }
-  l_.reserve(l);
-  u_.reserve(u);
-  inverse_diagonal_.reserve(n);
-  work_.resize(n * 2 * widest);
+  l_.reserve(2 * analysis_->lowerEntries());
+  u_.reserve(2 * analysis_->upperEntries());
+  inverse_diagonal_.reserve(static_cast<std::size_t>(analysis_->n()));
 }
 
 bool InterleavedLu::factorize(const Pencil& pencil, std::span<const std::complex<double>> m) {
@@ -154,11 +175,13 @@ bool InterleavedLu::choosePivots(const Pencil& pencil, std::complex<double> m) {
 }
 
 bool InterleavedLu::refactorize(const Pencil& pencil, std::span<const std::complex<double>> m, bool fresh) {
-  return std::all_of(groups_.begin(), groups_.end(), [&](Group& group) {
+  onThreads(threads_, groups_.size(), [&](std::size_t i) {
+    Group& group = groups_[i];
     const auto own = m.subspan(group.first, group.lanes);
-    return group.width == kMinWidth ? refactorizeGroup<kMinWidth>(group, pencil, own, fresh)
-                                    : refactorizeGroup<kMaxLanes>(group, pencil, own, fresh);
+    group.good = withWidth(
+        group.width, [&](auto width) { return refactorizeGroup<decltype(width)::value>(group, pencil, own, fresh); });
   });
+  return std::all_of(groups_.begin(), groups_.end(), [](const Group& group) { return group.good; });
 }
 
 template <int kWidth>
@@ -166,7 +189,7 @@ bool InterleavedLu::refactorizeGroup(Group& group, const Pencil& pencil, std::sp
                                      bool fresh) {
   const bool copies = &group == &groups_.front() && m.front().imag() == 0;
   Elimination<kWidth> lu{.f = pivots_,
-                         .x = work_.data(),
+                         .x = group.work.data(),
                          .l = group.l.data(),
                          .u = group.u.data(),
                          .inverse = group.inverse_diagonal.data(),
@@ -196,7 +219,7 @@ bool InterleavedLu::refactorizeGroup(Group& group, const Pencil& pencil, std::sp
 void InterleavedLu::solveFirst(double* b) {
   const SparsePivots& f = pivots_;
   const std::size_t n = f.p.size();
-  double* const x = work_.data();
+  double* const x = groups_.front().work.data();
   for (std::size_t k = 0; k < n; ++k) x[k] = b[f.p[k]] * f.scale[k];
   for (std::size_t k = 0; k < n; ++k) {
     for (auto e = static_cast<std::size_t>(f.l_start[k]); e < static_cast<std::size_t>(f.l_start[k + 1]); ++e) {
@@ -213,25 +236,22 @@ void InterleavedLu::solveFirst(double* b) {
 }
 
 void InterleavedLu::solve(std::span<const Lane> lanes) {
-  for (const Group& group : groups_) {
+  onThreads(threads_, groups_.size(), [&](std::size_t i) {
+    Group& group = groups_[i];
     const auto own = lanes.subspan(group.first, group.lanes);
-    if (group.width == kMinWidth) {
-      solveGroup<kMinWidth>(group, own);
-    } else {
-      solveGroup<kMaxLanes>(group, own);
-    }
-  }
+    withWidth(group.width, [&](auto width) { solveGroup<decltype(width)::value>(group, own); });
+  });
 }
 
 template <int kWidth>
-void InterleavedLu::solveGroup(const Group& group, std::span<const Lane> lanes) {
+void InterleavedLu::solveGroup(Group& group, std::span<const Lane> lanes) {
   using Array = typename Pack<kWidth>::Array;
   using In = typename Pack<kWidth>::In;
   using Out = typename Pack<kWidth>::Out;
   const SparsePivots& f = pivots_;
   const std::size_t n = f.p.size();
   constexpr std::size_t kSize = std::size_t{2} * kWidth;
-  double* const x = work_.data();
+  double* const x = group.work.data();
   std::fill_n(x, n * kSize, 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane lane = lanes[i];

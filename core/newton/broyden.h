@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/base/threads.h"
 #include "irk/scalar.h"
 
 namespace irk {
@@ -16,8 +17,8 @@ namespace irk {
 template <class Real>
 class BroydenUpdates {
  public:
-  BroydenUpdates(Index n, Index stages)
-      : n_(n), increments_(n * stages, kMax), weights_(n < kRepeatedBelow ? n * stages : n) {}
+  BroydenUpdates(Index n, Index stages, int threads = 1)
+      : n_(n), threads_(threads), increments_(n * stages, kMax), weights_(n < kRepeatedBelow ? n * stages : n) {}
 
   /// Begins a new iteration with the simplified matrix; `on`: whether to update it. `squares`: n squared weights of the
   /// inner product.
@@ -31,11 +32,18 @@ class BroydenUpdates {
   /// Replaces v = M^-1 R by the corrected increment, in place (n s numbers).
   void apply(VecView<Real>& v) {
     if (count_ == 0) return;
-    for (Index i = 0; i + 1 < count_; ++i) v += part(v, i) * increments_.col(i + 1);
+    for (Index i = 0; i + 1 < count_; ++i) {
+      const Real factor = part(v, i);
+      inParts(threads_, v.size(), [&](Index first, Index last) {
+        v.segment(first, last - first) += factor * increments_.col(i + 1).segment(first, last - first);
+      });
+    }
     if (frozen_) return;
     const Real alpha = part(v, count_ - 1);
     frozen_ = !(alpha < Real(0.5));
-    if (!frozen_) v *= Real(1) / (Real(1) - alpha);
+    if (frozen_) return;
+    const Real factor = Real(1) / (Real(1) - alpha);
+    inParts(threads_, v.size(), [&](Index first, Index last) { v.segment(first, last - first) *= factor; });
   }
   /// Records that the increment d from `apply` was taken.
   void learn(const VecView<Real>& d) {
@@ -48,7 +56,7 @@ class BroydenUpdates {
       return;
     }
     squares_[static_cast<std::size_t>(count_)] = square;
-    increments_.col(count_++) = d;
+    copyOnThreads(threads_, d.data(), d.size(), increments_.col(count_++).data());
   }
 
  private:
@@ -63,17 +71,16 @@ class BroydenUpdates {
   template <class A, class B>
   Real product(const A& a, const B& b) const {
     const Index length = weights_.size();
-    Real sum(0);
-    for (Index at = 0; at < a.size(); at += length) {
-      sum += a.segment(at, length).dot(weights_.cwiseProduct(b.segment(at, length)));
-    }
-    return sum;
+    return sumOnThreads<Real>(threads_, a.size() / length, length, [&](Index i) {
+      return Real(a.segment(i * length, length).dot(weights_.cwiseProduct(b.segment(i * length, length))));
+    });
   }
 
   // With fewer unknowns one long sum is faster than one for each stage.
   static constexpr Index kRepeatedBelow = 64;
 
   Index n_;
+  int threads_;
   Mat<Real> increments_;            // d_i
   Vec<Real> weights_;               // the diagonal of W, of all stages or, where it is long, of one
   std::array<Real, kMax> squares_;  // |d_i|^2

@@ -7,6 +7,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/small_size.h"
+#include "core/base/threads.h"
 #include "core/newton/broyden.h"
 #include "core/newton/newton.h"
 
@@ -64,7 +65,7 @@ class NewtonBase : public Newton<Real> {
 
   /// Begins a new step; keeps its start values for restarts.
   void begin(NewtonContext<Real>& c, const Mat<Real>& W) {
-    copyFew(W.data(), W.size(), W0_.data());
+    copyOnThreads(options_.threads, W.data(), W.size(), W0_.data());
     c.norm.rowWeights(static_cast<double>(c.eq.h()), row_weights_);
   }
 
@@ -88,10 +89,12 @@ class NewtonBase : public Newton<Real> {
     if (updates) updates->apply(increment);
     Real* const __restrict w = W.col(first_).data();
     const Real* const __restrict d = increment.data();
-    withSize<unrolledSizes<Real>(9)>(increment.size(), [&](auto n) {
-      for (Index i = 0; i < n; ++i) w[i] -= d[i];
+    inParts(options_.threads, increment.size(), [w, d](Index first, Index last) {
+      withSize<unrolledSizes<Real>(9)>(last - first, [=](auto n) {
+        for (Index i = 0; i < n; ++i) w[first + i] -= d[first + i];
+      });
     });
-    return c.norm.increment(R_, first_, row_weights_);
+    return c.norm.increment(R_, first_, row_weights_, options_.threads);
   }
   VecView<Real> implicit() { return {R_.col(first_).data(), R_.rows() * (R_.cols() - first_)}; }
 

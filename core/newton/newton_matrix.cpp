@@ -26,7 +26,8 @@ void evaluateStages(Differentiator<Real>& differentiator, std::vector<Linearizat
 template <class Real>
 SharedJacobian<Real>::SharedJacobian(const System<Real>& system, const Scheme<Real>& scheme,
                                      const IntegratorOptions& options, Counters& counters)
-    : differentiator_(system, options.derivatives, options.jacobian, storageOf(options)),
+    : differentiator_(system, options.derivatives, options.jacobian, storageOf(options), Matrices::kAll, nullptr,
+                      options.threads),
       at_(options.jacobian_point == JacobianPoint::kEachStage ? static_cast<std::size_t>(scheme.implicitStages()) : 1),
       point_(options.jacobian_point),
       counters_(counters) {}

@@ -195,7 +195,7 @@ class BroydenNewton final : public SimplifiedNewton<Real> {
  public:
   BroydenNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
       : SimplifiedNewton<Real>(options, sizes, scheme) {
-    if (sizes.n() >= kUpdatesFrom) this->updates_.emplace(sizes.n(), scheme.implicitStages());
+    if (sizes.n() >= kUpdatesFrom) this->updates_.emplace(sizes.n(), scheme.implicitStages(), options.threads);
   }
 };
 

@@ -151,7 +151,7 @@ std::span<const OptionField> optionFields() {
       number("steady", IRK_MEMBER(steady), Range::from(0),
              "The integration ends as a success where all rates are below this part of the components; 0 = at t_end."),
       number("threads", IRK_MEMBER(threads), Range::integers(1, kMaxThreads),
-             "Threads inside one integration; the numbers do not depend on it."),
+             "Threads inside one integration; the numbers do not depend on it. Below 100 unknowns one is taken."),
   });
   constexpr std::size_t kNested = 3;  // tolerances, newton, step
   static_assert(std::tuple_size_v<decltype(fields)> == memberCount<IntegratorOptions>() - kNested +

@@ -4,8 +4,8 @@
 #include <memory>
 #include <type_traits>
 
-#include "core/base/parallel_loop.h"
 #include "core/base/small_product.h"
+#include "core/base/threads.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -41,7 +41,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
       setup_.analysis = std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row);
     }
     if (form_.diagonal && form_.blocks.size() > 1) {
-      together_.emplace(setup_.analysis, form_.blocks.size());
+      together_.emplace(setup_.analysis, form_.blocks.size(), setup_.threads);
       lane_m_.resize(form_.blocks.size());
       for (const Index size : {1, 2}) {  // real blocks first
         for (std::size_t k = 0; k < form_.blocks.size(); ++k) {
@@ -61,7 +61,7 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
 
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::makeFactors() {
-  eta_.resize(setup_.pattern->n);
+  eta_.assign(form_.diagonal ? form_.blocks.size() : 1, Vec<Complex>(setup_.pattern->n));
   const auto add = [&](const auto& shape) {
     for (const auto& block : form_.blocks) {
       lu_index_.push_back(block.size == 1 ? real_lu_.size() : complex_lu_.size());
@@ -114,14 +114,7 @@ Outcome Decoupled<Real, Lu>::factorize(std::span<const Linearization<Real>> at, 
     };
     form_.blocks.front().size == 1 ? copy(real_lu_.front()) : copy(complex_lu_.front());
   }
-  if (setup_.threads > 1) {
-    ParallelLoop loop;
-#pragma omp parallel for num_threads(setup_.threads) schedule(dynamic)
-    for (std::size_t k = done; k < blocks; ++k) loop.turn(k, [&] { outcomes_[k] = factorizeBlock(k); });
-    loop.rethrow();
-  } else {
-    for (std::size_t k = done; k < blocks; ++k) outcomes_[k] = factorizeBlock(k);
-  }
+  onThreads(setup_.threads, blocks - done, [&](std::size_t k) { outcomes_[done + k] = factorizeBlock(done + k); });
   const auto failed =
       std::find_if(outcomes_.begin(), outcomes_.end(), [](Outcome o) { return o != Outcome::kSuccess; });
   return failed == outcomes_.end() ? Outcome::kSuccess : *failed;
@@ -259,13 +252,14 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
     real_lu_[lu_index_[index]].solve(Y_.col(i).data());
     return;
   }
+  Vec<Complex>& eta = eta_[form_.diagonal ? index : 0];
   for (Index k = 0; k < Y_.rows(); ++k) {
-    eta_[k] = Complex(Y_(k, i), Real(block.sigma * Y_(k, i + 1)));
+    eta[k] = Complex(Y_(k, i), Real(block.sigma * Y_(k, i + 1)));
   }
-  complex_lu_[lu_index_[index]].solve(eta_.data());
+  complex_lu_[lu_index_[index]].solve(eta.data());
   for (Index k = 0; k < Y_.rows(); ++k) {
-    Y_(k, i) = eta_[k].real();
-    Y_(k, i + 1) = eta_[k].imag() / block.sigma;
+    Y_(k, i) = eta[k].real();
+    Y_(k, i + 1) = eta[k].imag() / block.sigma;
   }
 }
 
@@ -323,16 +317,26 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
       return withSize<kSmallInverse>(Y_.rows(), [&](auto n) { solveSmall(rhs.data(), rhs.outerStride(), n); });
     }
   }
-  smallProduct<Real>(rhs, to_basis_, Y_);
-  if (gathered_) together_->solve(lanes_);
-  for (std::size_t k = form_.blocks.size(); k-- > 0 && !gathered_;) {
+  const Index n = Y_.rows(), stride = rhs.outerStride();
+  productOnThreads(setup_.threads, rhs.data(), stride, n, to_basis_, Y_.data(), n);
+  solveBlocks();
+  productOnThreads(setup_.threads, Y_.data(), n, n, from_basis_, rhs.data(), stride);
+}
+
+// Solves with all blocks, in Y_. In a block triangular form each needs those to the right of it.
+template <class Real, template <class> class Lu>
+void Decoupled<Real, Lu>::solveBlocks() {
+  if (gathered_) return together_->solve(lanes_);
+  if (form_.diagonal) {
+    return onThreads(setup_.threads, form_.blocks.size(), [&](std::size_t k) { solveBlock(k); });
+  }
+  for (std::size_t k = form_.blocks.size(); k-- > 0;) {
     const auto& block = form_.blocks[k];
-    if (!form_.diagonal) coupleRows(block, Y_.rows());
+    coupleRows(block, Y_.rows());
     solveBlock(k);
-    if (form_.diagonal || k == 0) continue;
+    if (k == 0) continue;
     for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, Y_.rows());
   }
-  smallProduct<Real>(Y_, from_basis_, rhs);
 }
 
 template class Decoupled<double, DenseLu>;

@@ -37,6 +37,7 @@ class Decoupled final : public StageSolver<Real> {
   // Not inlined: in this context the compiler would contract other products and sums of `solveSmall`.
   template <class Size>
   [[gnu::noinline]] void multiply(Index column, Size n);
+  void solveBlocks();
   void solveBlock(std::size_t index);
   template <class Size>
   void solveSmall(Real* rhs, Index stride, Size n);
@@ -52,6 +53,8 @@ class Decoupled final : public StageSolver<Real> {
   std::vector<Lu<Real>> real_lu_;
   std::vector<Lu<Complex>> complex_lu_;
   std::vector<std::size_t> lu_index_;  // by block: its index in real_lu_ or complex_lu_
+  // Right-hand sides of complex blocks: one for each block where blocks do not couple, else one for all.
+  std::vector<Vec<Complex>> eta_;
   // Sparse blocks: the pivots of the first block, offered to the others. Copied at the beginning of a factorization;
   // in the very first one, after the first block is factorized.
   SparsePivots pivots_;
@@ -71,7 +74,6 @@ class Decoupled final : public StageSolver<Real> {
   Vec<Real> scales_;
   Mat<Real> Y_;          // transformed right-hand side and solution, n x s
   Mat<Real> D1Y_, D2Y_;  // D1 and D2 times the solved columns of Y (Schur form only)
-  Vec<Complex> eta_;
 };
 
 }  // namespace irk

@@ -24,7 +24,7 @@ struct StageSolverSetup {
   std::shared_ptr<const Pattern> pattern;
   std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
   Sizes sizes;
-  int threads = 1;  ///< for the factorizations of independent blocks
+  int threads = 1;  ///< for factorizations and solutions of independent blocks
   /// Of the pattern, where it is sparse, and of A; each made anew where it is missing.
   std::shared_ptr<const SparseAnalysis> analysis = nullptr;
   std::shared_ptr<const BlockForm<Real>> form = nullptr;

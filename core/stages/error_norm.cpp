@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/small_size.h"
+#include "core/base/threads.h"
 #include "core/system/component_scale.h"
 #include "irk/multiprecision.h"
 
@@ -163,18 +164,16 @@ void ErrorNorm<Real>::rowWeights(double h, Vec<double>& squares) const {
 }
 
 template <class Real>
-double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const {
+double ErrorNorm<Real>::increment(const Mat<Real>& dW, Index first, const Vec<double>& squares, int threads) const {
   const Index count = dW.cols() - first;
   const double sum = withSize<unrolledSizes<Real>(8)>(dW.rows(), [&](auto n) {
     const Real* const columns = dW.data() + first * n;
     const double* const weight = squares.data();
     if constexpr (std::is_same_v<decltype(n), Index>) {
-      double all = 0;
-      for (Index j = 0; j < count; ++j) {
+      return sumOnThreads<double>(threads, count, n, [=](Index j) {
         const Real* const column = columns + j * n;
-        all += sumOf(n, [=](Index i) { return weight[i] * square(static_cast<double>(column[i])); });
-      }
-      return all;
+        return sumOf(n, [=](Index i) { return weight[i] * square(static_cast<double>(column[i])); });
+      });
     } else {
       return sumOfRows(columns, weight, n, count);
     }

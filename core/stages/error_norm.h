@@ -48,8 +48,9 @@ class ErrorNorm {
   /// (u, v, x, z): h^2 da, h da, h dk, dz. Components of index i, here of u, v, x as well, are multiplied by
   /// h^(i-1): Newton corrects those of higher index later, and its contraction is that of the others.
   void rowWeights(double h, Vec<double>& squares) const;
-  /// Norm of a Newton increment dW (n x s), columns from `first` on. Always an RMS norm, whatever the error norm is.
-  double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares) const;
+  /// Norm of a Newton increment dW (n x s), columns from `first` on, on up to `threads` threads. Always an RMS norm,
+  /// whatever the error norm is.
+  double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares, int threads = 1) const;
 
  private:
   double total(double sum_of_squares) const;

@@ -1,11 +1,12 @@
 #include "core/stages/stage_equations.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "core/base/parallel_loop.h"
 #include "core/base/small_product.h"
+#include "core/base/threads.h"
 #include "core/stage_solvers/stage_solver.h"
 #include "irk/multiprecision.h"
 
@@ -34,16 +35,16 @@ void addCompensated(const Vec<Real>& from, const Real* __restrict carry0, Vec<Re
   });
 }
 
-// Whether all are finite. Few numbers are read one by one: a register of them would wait for those that have just been
-// written.
+// Whether all n numbers are finite. Few numbers are read one by one: a register of them would wait for those that have
+// just been written.
 template <class Real>
-bool areFinite(const Mat<Real>& R) {
-  return withSize<unrolledSizes<Real>(9)>(R.size(), [&](auto n) {
+bool areFinite(const Real* r, Index count) {
+  return withSize<unrolledSizes<Real>(9)>(count, [&](auto n) {
     if constexpr (std::is_same_v<decltype(n), Index>) {
-      return (R.array() * Real(0)).sum() == Real(0);
+      return (ConstVec<Real>(r, n).array() * Real(0)).sum() == Real(0);
     } else {
       Real sum(0);
-      for (Index i = 0; i < n; ++i) sum += R.data()[i] * Real(0);
+      for (Index i = 0; i < n; ++i) sum += r[i] * Real(0);
       return sum == Real(0);
     }
   });
@@ -110,33 +111,34 @@ void StageEquations<Real>::place(const Mat<Real>& W) {
   const Real *const u = from_->u.data(), *const v = from_->v.data(), *const x = from_->x.data();
   if (nu > 0) {
     if (uses_velocity_) {
-      inlinedProduct(W.data(), W.rows(), nu, hA_, V_.data(), nu, FromColumn<Real>{v});
+      productOnThreads(threads_, W.data(), W.rows(), nu, hA_, V_.data(), nu, FromColumn<Real>{v});
     }
-    inlinedProduct(W.data(), W.rows(), nu, hhA2_, U_.data(), nu, FromLine<Real>{u, v, hA1_.data()});
+    productOnThreads(threads_, W.data(), W.rows(), nu, hhA2_, U_.data(), nu, FromLine<Real>{u, v, hA1_.data()});
   }
   if (nx > 0) {
-    inlinedProduct(W.data() + nu, W.rows(), nx, hA_, X_.data(), nx, FromColumn<Real>{x});
+    productOnThreads(threads_, W.data() + nu, W.rows(), nx, hA_, X_.data(), nx, FromColumn<Real>{x});
   }
 }
 
 template <class Real>
 bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
   place(W);
-  const Index first = scheme_.first, s = scheme_.s;
+  const Index first = scheme_.first, s = scheme_.s, n = sizes_.n();
   if (first > 0) R.leftCols(first).setZero();
   const StagePoints<Real> at = points(W);
-  if (threads_ > 1) {
-    ParallelLoop loop;
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (Index i = first; i < s; ++i) {
-      loop.turn(static_cast<std::size_t>(i), [&] { system_.evaluateStages(at, i, i + 1, R.data()); });
-    }
-    loop.rethrow();
-  } else {
-    system_.evaluateStages(at, first, s, R.data());
-  }
-  for (Index i = first; i < s && scaled_; ++i) R.col(i).array() *= scales_.array();
-  return areFinite(R);
+  // Of the stages from i to j - 1; returns whether they are finite.
+  const auto evaluate = [&](Index i, Index j) {
+    system_.evaluateStages(at, i, j, R.data());
+    for (Index k = i; k < j && scaled_; ++k) R.col(k).array() *= scales_.array();
+    return areFinite(R.col(i).data(), (j - i) * n);
+  };
+  if (threads_ <= 1) return evaluate(first, s);
+  std::atomic<bool> finite = true;
+  onThreads(threads_, static_cast<std::size_t>(s - first), [&](std::size_t k) {
+    const Index i = first + static_cast<Index>(k);
+    if (!evaluate(i, i + 1)) finite = false;
+  });
+  return finite;
 }
 
 template <class Real>
@@ -180,12 +182,12 @@ void StageEquations<Real>::finish(const Mat<Real>& W, State<Real>& to) {
   if (sizes_.discrete > 0) to.d = from_->d;
   const Index n = sizes_.n();
   if (sizes_.nu > 0) {
-    inlinedProduct(W.data(), n, sizes_.nu, scheme_.bA, to.u.data(), n);
-    inlinedProduct(W.data(), n, sizes_.nu, scheme_.b, to.v.data(), n);
+    productOnThreads(threads_, W.data(), n, sizes_.nu, scheme_.bA, to.u.data(), n);
+    productOnThreads(threads_, W.data(), n, sizes_.nu, scheme_.b, to.v.data(), n);
     to.u = (h_ * h_) * to.u + h_ * from_->v;
     to.v *= h_;
   }
-  inlinedProduct(W.data() + sizes_.nu, n, sizes_.nx, scheme_.b, to.x.data(), n);
+  productOnThreads(threads_, W.data() + sizes_.nu, n, sizes_.nx, scheme_.b, to.x.data(), n);
   to.x *= h_;
   if (summation_ == Summation::kCompensated) {
     const Real* const before = from_->carry.data();

@@ -12,7 +12,8 @@ namespace irk {
 template <class Real>
 class StageEquations {
  public:
-  /// Keeps references to the system and the scheme. `threads`: number of stages evaluated at a time.
+  /// Keeps references to the system and the scheme. `threads`: how many stages, or parts of
+  /// their rows, are worked on at a time.
   StageEquations(const System<Real>& system, const Scheme<Real>& scheme, Summation summation, int threads);
 
   /// Begins a step of size h. Keeps a reference to `from`, which must not change during the step.

@@ -6,6 +6,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/small_product.h"
+#include "core/base/threads.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -46,6 +47,7 @@ template <class Real>
 Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                        SharedJacobian<Real>& jacobian, const ErrorNorm<Real>& norm, Counters& counters)
     : counters_(counters),
+      threads_(options.threads),
       eq_(system, scheme, options.summation, options.threads),
       matrix_(jacobian, options.solver, setupOf(system, scheme, options), counters),
       stagewise_(jacobian, setupOf(system, scheme, options),
@@ -90,7 +92,7 @@ void Stepper<Real>::solveAndKeep(const State<Real>& from, const Real& h, Jacobia
   if (!stages_.valid) return;
   stages_.t = from.t;
   stages_.h = h;
-  copyFew(W_.data(), W_.size(), stages_.W.data());
+  copyOnThreads(threads_, W_.data(), W_.size(), stages_.W.data());
 }
 
 template <class Real>

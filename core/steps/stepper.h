@@ -53,6 +53,7 @@ class Stepper final : private StepRepeater<Real> {
   int highest() const { return W_.cols() > 2 ? 2 : 1; }  // number of coefficients in `roughness`
 
   Counters& counters_;
+  int threads_;
   StageEquations<Real> eq_;
   NewtonMatrix<Real> matrix_;
   StagewiseMatrix<Real> stagewise_;

@@ -247,8 +247,9 @@ struct IntegratorOptions {
   StageSolverKind solver = StageSolverKind::kSchur;
   /// Storage of the solvers `schur` and `eigen`; the ids of the coupled solvers name theirs.
   Storage storage = Storage::kAutomatic;
-  /// Number of threads for the residuals of the stages and the factorizations of the blocks. Results do not depend on
-  /// it. Inside a parallel region of the caller one thread is used, whatever the number is.
+  /// Number of threads among which one integration is divided: stages, their linear systems, directions of a Jacobian,
+  /// parts of long vectors. Results do not depend on it. Below 100 unknowns and inside a parallel region of the caller
+  /// one thread is used, whatever the number is.
   int threads = 1;
   Predictor predictor = Predictor::kExtrapolated;
   Summation summation = Summation::kCompensated;

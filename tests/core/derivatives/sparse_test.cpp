@@ -242,20 +242,65 @@ TEST(Sparse, ReusedIntegratorsGiveTheSameBits) {
   EXPECT_EQ(a.counters.dual_residuals, b.counters.dual_residuals);
 }
 
+void expectSameBits(const System<double>& system, const Solution<double>& one, const Solution<double>& other) {
+  ASSERT_EQ(one.outcome, Outcome::kSuccess) << one.detail;
+  ASSERT_EQ(other.outcome, Outcome::kSuccess) << other.detail;
+  ASSERT_GE(system.sizes().n(), 100) << "else one thread is used";
+  EXPECT_EQ(one.state.u, other.state.u);
+  EXPECT_EQ(one.state.v, other.state.v);
+  EXPECT_EQ(one.state.x, other.state.x);
+  EXPECT_EQ(one.state.w, other.state.w);
+  std::vector<std::int64_t> counts;
+  one.counters.forEach([&counts](const char*, std::int64_t count) { counts.push_back(count); });
+  std::size_t i = 0;
+  other.counters.forEach([&](const char* name, std::int64_t count) { EXPECT_EQ(count, counts[i++]) << name; });
+}
+
 TEST(Sparse, ThreadsChangeNoBit) {
-  const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 12);
+  const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 26);
+  const auto system = ancf.system({});
   for (const Storage storage : {Storage::kDense, Storage::kSparse}) {
     for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
-      IntegratorOptions o = adaptive(1e-4);
-      o.storage = storage;
-      o.solver = solver;
-      const auto one = solve(ancf.system({}), ancf.start, 0.05, o);
-      o.threads = 2;
-      const auto two = solve(ancf.system({}), ancf.start, 0.05, o);
-      ASSERT_EQ(one.outcome, Outcome::kSuccess);
-      EXPECT_EQ(one.state.u, two.state.u);
-      EXPECT_EQ(one.state.v, two.state.v);
-      EXPECT_EQ(one.counters.residuals, two.counters.residuals);
+      for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+        SCOPED_TRACE(std::string(idOf(storage)) + " " + std::string(idOf(solver)) + " " + std::string(idOf(estimate)));
+        IntegratorOptions o = adaptive(1e-4);
+        o.storage = storage;
+        o.solver = solver;
+        o.step.estimate = estimate;
+        const auto one = solve(system, ancf.start, 0.01, o);
+        for (const int threads : {2, 3, 8}) {
+          SCOPED_TRACE(threads);
+          o.threads = threads;
+          expectSameBits(*system, one, solve(system, ancf.start, 0.01, o));
+        }
+      }
+    }
+  }
+}
+
+// So many unknowns that vectors are divided among threads.
+TEST(Sparse, ThreadsOnPartsOfLongVectorsChangeNoBit) {
+  struct Case {
+    const char *scene, *parameter;
+    double t_end;
+  };
+  for (const Case& c : {Case{"heat", "n", 0.01}, Case{"beam_chain", "m", 0.002}}) {
+    const Scene<double> scene = sceneOf(c.scene, c.parameter, 5001);
+    const auto system = scene.system({});
+    for (const NewtonKind newton : {NewtonKind::kSimplified, NewtonKind::kBroyden}) {
+      for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
+        SCOPED_TRACE(std::string(c.scene) + " " + std::string(idOf(newton)) + " " + std::string(idOf(estimate)));
+        IntegratorOptions o = adaptive(1e-5);
+        o.newton.kind = newton;
+        o.solver = StageSolverKind::kEigen;
+        o.step.estimate = estimate;
+        const auto one = solve(system, scene.start, c.t_end, o, "radau_iia_9");
+        for (const int threads : {2, 3, 4}) {
+          SCOPED_TRACE(threads);
+          o.threads = threads;
+          expectSameBits(*system, one, solve(system, scene.start, c.t_end, o, "radau_iia_9"));
+        }
+      }
     }
   }
 }

@@ -109,9 +109,12 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
         o.step.h = 1e-5;
         for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
           o.solver = solver;
-          EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
-              << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " " << idOf(estimate) << " "
-              << idOf(solver);
+          for (const int threads : {1, 2}) {
+            o.threads = threads;
+            EXPECT_EQ(allocationsOf(system, scene.start, one, o, 5e-4), 0)
+                << c.elements << " " << idOf(c.storage) << " " << idOf(newton) << " " << idOf(estimate) << " "
+                << idOf(solver) << " " << threads << " threads";
+          }
         }
       }
     }

@@ -235,6 +235,33 @@ TEST(InterleavedLu, AgreesWithSolvesOneByOne) {
   }
 }
 
+// Threads get groups of other widths; each lane has the same bits in all of them.
+TEST(InterleavedLu, ThreadsChangeNoBit) {
+  const Pencil pencil(saddle<double>(1), 0.05 * saddle<double>(2), 0.05 * saddle<double>(3));
+  const Index n = pencil.D0.rows();
+  for (const Index matrices : {2, 5, 11}) {
+    std::vector<std::complex<double>> m{0.3};
+    for (int i = 1; i < matrices; ++i) m.emplace_back(0.5 - 0.1 * i, 0.1 * i);
+    const Mat<double> right = Mat<double>::Random(n, 2 * matrices);
+    const auto solved = [&](int threads) {
+      InterleavedLu together(pencil.pattern.analysis(), m.size(), threads);
+      EXPECT_TRUE(together.factorize(pencil.view(), m));
+      Mat<double> x = right;
+      std::vector<InterleavedLu::Lane> lanes;
+      for (Index j = 0; j < matrices; ++j) {
+        lanes.push_back({x.col(2 * j).data(), j == 0 ? nullptr : x.col(2 * j + 1).data(), 0.7, 1 / 0.7});
+      }
+      together.solve(lanes);
+      together.solveFirst(x.col(1).data());
+      return x;
+    };
+    const Mat<double> one = solved(1);
+    for (const int threads : {2, 3, 5, 8, 16}) {
+      EXPECT_EQ((one - solved(threads)).cwiseAbs().maxCoeff(), 0) << threads << " threads, " << matrices << " matrices";
+    }
+  }
+}
+
 // m = 0 has its pivots on the diagonal, m = 1 beside it.
 TEST(InterleavedLu, FollowsChangesOfPivotsAndRefusesWhereTheyDiffer) {
   Mat<double> A(2, 2), D1(2, 2), D2(2, 2);
