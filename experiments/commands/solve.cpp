@@ -204,6 +204,15 @@ std::string failureText(const RunRecord& record) {
                      record.detail.empty() ? "" : ", ", record.detail);
 }
 
+// Where threads do not pay, says so and takes one.
+void takeOneThread(RunSpec& spec, std::ostream& err) {
+  if (spec.options.threads == 1) return;
+  const std::string text = oneThreadText(spec, sceneOf<double>(spec).sizes().n());
+  if (text.empty()) return;
+  fmt::print(err, "{}\n", text);
+  spec.options.threads = 1;
+}
+
 }  // namespace
 
 RunSpec solveSpec(const SolveOptions& options, RunSpec defaults) {
@@ -261,7 +270,8 @@ std::function<MadeReference(const RunSpec&)> SolveReferences::of(const RunSpec& 
 int solveCommand(const SolveOptions& options, Streams streams) {
   const Sweep sweep = sweepOf(options);
   if (!sweep.names.empty()) return solveSweep(sweep, streams);
-  const RunSpec spec = solveSpec(options);
+  RunSpec spec = solveSpec(options);
+  takeOneThread(spec, streams.err);
   OutFile out(options, spec);
   const InterruptScope interrupts;
   SolveReferences references(streams.err);

@@ -12,6 +12,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/setup.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -149,12 +150,17 @@ int solveSweep(const Sweep& sweep, Streams streams) {
   const InterruptScope interrupts;
   SolveReferences references(streams.err);
   std::size_t made = 0, failed = 0;
+  std::set<std::string> said;
   for (std::size_t i = 0; i < specs.size() && !interruptFlag(); ++i) {
     const RunSpec& spec = specs[i];
     const Watch watch{&interruptFlag(), {}, {}, references.of(spec)};
     const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
     ++made;
     if (!record.succeeded()) ++failed;
+    const std::string one_thread = oneThreadText(spec, record.u.size() + record.x.size() + record.z.size());
+    if (record.succeeded() && !one_thread.empty() && said.insert(one_thread).second) {
+      fmt::print(streams.err, "{}\n", one_thread);
+    }
     if (first.json) {
       streams.out << solveJson(record, -1) << '\n';
     } else {

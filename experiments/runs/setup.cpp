@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/text.h"
+#include "core/base/threads.h"
 #include "core/control/order_controller.h"
 #include "core/derivatives/constraint_check.h"
 #include "core/estimates/variable_order.h"
@@ -60,6 +61,10 @@ SystemOptions systemOptions(const RunSpec& spec, const Scene<Real>& scene) {
 template <class Real>
 std::string Setup<Real>::advice(Outcome outcome) const {
   const std::string left_out = leftOutText(*system);
+  if (outcome == Outcome::kSuccess) {
+    const std::string one_thread = oneThreadText(spec, system->sizes().n());
+    return left_out + (left_out.empty() || one_thread.empty() ? "" : "; ") + one_thread;
+  }
   if (outcome == Outcome::kSingular && spec.constraints == ConstraintUse::kAll) {
     const bool dependent = !dependentConstraints(*scene.system({}), scene.start, scene.scale).empty();
     return dependent ? "constraints 'independent' leaves out those that follow from the others" : "";
@@ -73,6 +78,12 @@ std::string Setup<Real>::advice(Outcome outcome) const {
   if (!steps_shrink || !constrained || at_end) return left_out;
   return (left_out.empty() ? "" : left_out + "; ") + "the steps of " + method.id +
          " end off the velocity constraint; formulation index2_projected projects them";
+}
+
+std::string oneThreadText(const RunSpec& spec, Index unknowns) {
+  if (spec.options.threads == 1 || unknowns >= kThreadsFrom) return {};
+  return fmt::format("threads = {} does not pay with {} unknowns: below {} one thread is taken", spec.options.threads,
+                     unknowns, kThreadsFrom);
 }
 
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {

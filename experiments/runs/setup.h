@@ -22,14 +22,18 @@ struct Setup {
   Index stages() const { return methods.members[methods.start].stages(); }
   /// Throws Misuse for combinations that cannot work.
   Integrator<Real> integrator() const { return integrator(methods, spec.options); }
-  /// What is said beside the detail of a run with this outcome: which constraints are left out, and which formulation
-  /// solves it; empty if there is nothing to say.
+  /// What is said beside the detail of a run with this outcome: which constraints are left out, which formulation
+  /// solves it, that it has taken one thread; empty if there is nothing to say.
   std::string advice(Outcome outcome) const;
   /// An integrator of the same system with other methods and options.
   Integrator<Real> integrator(const Methods<Real>& others, const IntegratorOptions& options) const {
     return {system, others, options, scale};
   }
 };
+
+/// That an integration of so many unknowns takes one thread, and why; empty if the spec asks for one, or if it takes as
+/// many as the spec asks for.
+std::string oneThreadText(const RunSpec& spec, Index unknowns);
 
 /// The setup of a resolved spec and its scene: makes the system and the method's coefficients. Throws Misuse as
 /// makeSetup.

@@ -132,6 +132,23 @@ TEST(Cli, StepMeansFixedSteps) {
   EXPECT_EQ(json["steps"]["accepted"], 10);
 }
 
+// With few unknowns threads would cost more than they give: the command says so in a line and takes one.
+TEST(Cli, ThreadsThatDoNotPayAreSaidAndOneIsTaken) {
+  const std::vector<std::string> few{"solve", "beam_chain", "--set", "m=99", "--t-end", "1e-3", "--threads", "2"};
+  const Ended run = program(few);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "threads = 2 does not pay with 99 unknowns: below 100 one thread is taken\n");
+  EXPECT_EQ(run.out.find("remark"), std::string::npos) << "one line is enough";
+  const Ended several = program({"solve", "kepler", "--threads", "1,2", "--tol", "1e-3,1e-4", "--t-end", "0.1"});
+  EXPECT_EQ(several.status, 0) << several.err;
+  EXPECT_EQ(several.err, "threads = 2 does not pay with 2 unknowns: below 100 one thread is taken\n");
+  auto enough = few;
+  enough[3] = "m=100";
+  const Ended two = program(enough);
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_EQ(two.err, "");
+}
+
 TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
   const auto run = program({"solve", "kepler", "--tol", "1e-10", "--max-steps", "2", "--json"});
   EXPECT_EQ(run.status, 1);
