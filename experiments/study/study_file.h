@@ -1,6 +1,6 @@
 // TOML text -> lists of texts by key. The meaning of the keys is in study_reader.cpp.
 //
-//   title, question = "..."        orders, trajectories, estimates, energy, phases, profile, scaling = true
+//   title, question = "..."        orders, trajectories, estimates, energy, phases, profile, scaling, parallel = true
 //   targets = [1e-4, 1e-6]         [timing]              min_time_s, repetitions, ...
 //   load = "my_control.cpp"        files of the user's own, relative to the study's
 //   [audit]                        runs, seed, ... instead of blocks; [audit.quick] the same, --quick only

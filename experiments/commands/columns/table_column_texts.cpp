@@ -205,6 +205,17 @@ constexpr ColumnText kScalingSlopes[] = {
     {"points", "", "The number of points."},
 };
 
+constexpr ColumnText kParallel[] = {
+    {"n", "", "Unknowns of one stage."},
+    {"way", "", "threads: one run on several threads; runs: as many runs at a time, on one thread each."},
+    {"processors", "", "The number of threads, or of runs at a time."},
+    {"wall_s", "s", "The time until all are finished, set-up included: the least of five by the clock on the wall."},
+    {"speedup", "", "Runs per second over those on one processor."},
+    {"efficiency", "", "speedup / processors."},
+    {"serial_share", "",
+     "The part of the work that one processor does alone, by Amdahl's law; the speed-up stays below 1 / serial_share."},
+};
+
 constexpr TableText kRunTables[] = {
     {"environments.csv", "a machine with a build", SharedColumns::kNone, kEnvironments},
     {"calibrations.csv", "a fixed computation, timed beside the runs", SharedColumns::kNone, kCalibrations},
@@ -225,6 +236,7 @@ constexpr TableText kRunTables[] = {
     {"phases.csv", "the parts of a run in its time", SharedColumns::kSeries, kPhases},
     {"scaling.csv", "the time of a step", SharedColumns::kSeries, kScaling},
     {"scaling_slopes.csv", "how the time of a step grows", SharedColumns::kNone, kScalingSlopes},
+    {"parallel.csv", "a run on a number of processors", SharedColumns::kSeries, kParallel},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "experiments/analyses/energy.h"
 #include "experiments/analyses/estimates.h"
 #include "experiments/analyses/orders/orders.h"
+#include "experiments/analyses/parallel.h"
 #include "experiments/analyses/phases.h"
 #include "experiments/analyses/results.h"
 #include "experiments/analyses/scaling.h"
@@ -63,6 +64,10 @@ inline Table contractionTable(const Study& study, const Table& runs) {
 }
 inline Table scalingTable(const Study& study, const Table& runs, std::ostream& progress) {
   return ofFile(runs, [&](const auto& file) { return scalingTable(study, RunFile(file), progress); });
+}
+inline Table parallelTable(const Study& study, const Table& runs, const std::vector<int>& processors,
+                           std::ostream& progress) {
+  return ofFile(runs, [&](const auto& file) { return parallelTable(study, RunFile(file), processors, progress); });
 }
 inline Table phaseTable(const Study& study, const Table& runs, std::ostream& progress) {
   return ofFile(runs, [&](const auto& file) { return phaseTable(study, RunFile(file), progress); });

@@ -138,6 +138,30 @@ TEST(FigureCurves, Scaling) {
   EXPECT_EQ(svg.occurrences("2 threads"), 0) << "not drawn, so not in the legend";
 }
 
+TEST(FigureCurves, Parallel) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  const auto add = [&](const char* scene, const char* way, int processors, double speedup) {
+    rows.push_back({{"scene", scene},
+                    {"settings", "m=100 damping=0"},
+                    {"storage", "sparse"},
+                    {"way", way},
+                    {"processors", std::to_string(processors)},
+                    {"speedup", exact(speedup)}});
+  };
+  for (const char* const way : {"threads", "runs"}) {
+    const double gain = way[0] == 't' ? 0.5 : 0.9;
+    for (const int p : {1, 2, 6}) add("heat", way, p, 1 + gain * (p - 1));
+    for (const int p : {1, 2, 6}) add("beam_chain", way, p, 1 + 0.1 * (p - 1));
+  }
+  drawing.put("parallel.csv", {"scene", "settings", "storage", "way", "processors", "speedup"}, rows);
+  const Svg svg = drawing.draw("times/parallel.gp", "titles=\"'heat conduction' beam\"");
+  expectPoints(svg.marks('a', 2, kLog, kLog), {{1, 1}, {2, 1.5}, {6, 3.5}}, "one run");
+  expectPoints(svg.marks('a', 3, kLog, kLog), {{1, 1}, {2, 1.1}, {6, 1.5}}, "one run, beam");
+  expectPoints(svg.marks('b', 2, kLog, kLog), {{1, 1}, {2, 1.9}, {6, 5.5}}, "several runs");
+  EXPECT_EQ(svg.occurrences("heat conduction</text>"), 1);
+}
+
 TEST(FigureCurves, SceneSolution) {
   Drawing drawing;
   std::vector<Cells> rows;
