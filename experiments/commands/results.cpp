@@ -4,11 +4,13 @@
 #include <fmt/ostream.h>
 
 #include <charconv>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <set>
 #include <sstream>
 
+#include "core/base/input_file.h"
 #include "experiments/audit/audit.h"
 #include "experiments/base/child_process.h"
 #include "experiments/base/failure.h"
@@ -162,6 +164,24 @@ int mergeCommand(MergeOptions options, Streams streams) {
   if (!refusal.empty()) streams.err << refusal << '\n';
   tellDrift(study.id, folder / "runs.csv", streams.err);
   return refusal.empty() ? 0 : 1;
+}
+
+int statusCommand(const RunOptions& options, Streams streams) {
+  const Study study = loadStudy(options.study, options.variant, options.peers);
+  (void)figuresOfStudy(study, options.study);  // its mistakes are found before the runs are made
+  const auto folder = studyFolder(study, options.runner);
+  const store::Store store(folder, study.id, store::Use::kRead, options.runner.store, streams.err);
+  fmt::print(streams.out, "{} in {}\n{}", study.id, folder.string(), textOf(statusOf(study, options.runner, store)));
+  if (store.runs().damaged() > 0) {
+    fmt::print(streams.out, "  {} rows cannot be read: irk run sets them aside\n", store.runs().damaged());
+  }
+  requireRegularFile(folder / "lock");
+  std::ifstream lock(folder / "lock");
+  std::string host, process, date;
+  if (lock >> host >> process >> date) {
+    fmt::print(streams.out, "  process {} on {} writes there since {}\n", process, host, date);
+  }
+  return 0;
 }
 
 int publishCommand(const PublishOptions& options, Streams streams) {
