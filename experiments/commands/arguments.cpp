@@ -121,6 +121,30 @@ void addSolveOptions(CLI::App& sub, SolveOptions& run) {
                "Adds to each point in --out its error bars, from one more integration of another method.");
 }
 
+void addField(CLI::App& sub, const SpecField& field, SolveOptions& run, std::map<std::string, std::string>& fields) {
+  const std::string option = optionName(field.name);
+  const auto describe = [&](CLI::Option* added, const std::string& remark = "") {
+    added->description(remark + helpText(field))->type_name(valueName(field.kind));
+    return added;
+  };
+  if (field.name == "scene") {
+    describe(sub.add_option(option, run.scene))->required();
+  } else if (field.name == "settings") {
+    describe(sub.add_option(option, run.settings))->take_all()->expected(1);
+  } else if (field.name == "h") {
+    describe(sub.add_option(option, run.step), "Sets h, and control fixed with estimate none unless they are given. ");
+  } else if (field.name == "reference") {
+    sub.add_flag_callback(option, [&fields] { fields["reference"] = "auto"; })
+        ->description("Sets auto. " + helpText(field));
+  } else if (field.name == axisName<ErrorBarUse>()) {
+    describe(sub.add_option(option, fields[field.name]), "With solve the default is measured. ");
+    sub.add_flag_callback("--refine", [&fields] { fields["error_bars"] = "refined"; })
+        ->description("Sets error-bar refined: the result of the stricter integration, with the same bar.");
+  } else {
+    describe(sub.add_option(option, fields[field.name]));
+  }
+}
+
 void addDigits(CLI::App& sub, std::string& scalar) {
   sub.add_option_function<std::string>(
          "--digits",

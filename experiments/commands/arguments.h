@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ void addPeersOption(CLI::App& sub, std::vector<std::string>& peers);
 /// The options of `irk solve` that are not fields of a run.
 void addSolveOptions(CLI::App& sub, SolveOptions& run);
 
+/// The option of a field of a run. Its value goes to `run`, which has members for some fields, else to `fields`.
+void addField(CLI::App& sub, const SpecField& field, SolveOptions& run, std::map<std::string, std::string>& fields);
 /// `--digits N`, which sets the scalar `mpN`; to be added after --scalar.
 void addDigits(CLI::App& sub, std::string& scalar);
 /// The same for `irk ensemble`.

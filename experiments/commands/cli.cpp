@@ -41,6 +41,7 @@ class Program {
     addTableau();
     addPlots();
     addMerging();
+    addTables();
     addReference();
     addShell();
   }
@@ -155,7 +156,7 @@ class Program {
         verb(app_, "solve", "one integration", [this](Streams s) { return takeFields(), solveCommand(solve_, s); });
     addSolveOptions(*sub, solve_);
     addLoad(*sub);
-    for (const auto& field : specFields()) addField(*sub, field);
+    for (const auto& field : specFields()) addField(*sub, field, solve_, fields_);
     addDigits(*sub, fields_["scalar"]);
   }
 
@@ -165,33 +166,9 @@ class Program {
     addEnsembleOptions(*sub, solve_, ensemble_);
     addLoad(*sub);
     addJobs(*sub, "Threads; 0 = one per processor.");
-    for (const auto& field : specFields()) addField(*sub, field);
+    for (const auto& field : specFields()) addField(*sub, field, solve_, fields_);
   }
 
-  void addField(CLI::App& sub, const SpecField& field) {
-    const std::string option = optionName(field.name);
-    const auto describe = [&](CLI::Option* added, const std::string& remark = "") {
-      added->description(remark + helpText(field))->type_name(valueName(field.kind));
-      return added;
-    };
-    if (field.name == "scene") {
-      describe(sub.add_option(option, solve_.scene))->required();
-    } else if (field.name == "settings") {
-      describe(sub.add_option(option, solve_.settings))->take_all()->expected(1);
-    } else if (field.name == "h") {
-      describe(sub.add_option(option, solve_.step),
-               "Sets h, and control fixed with estimate none unless they are given. ");
-    } else if (field.name == "reference") {
-      sub.add_flag_callback(option, [this] { fields_["reference"] = "auto"; })
-          ->description("Sets auto. " + helpText(field));
-    } else if (field.name == axisName<ErrorBarUse>()) {
-      describe(sub.add_option(option, fields_[field.name]), "With solve the default is measured. ");
-      sub.add_flag_callback("--refine", [this] { fields_["error_bars"] = "refined"; })
-          ->description("Sets error-bar refined: the result of the stricter integration, with the same bar.");
-    } else {
-      describe(sub.add_option(option, fields_[field.name]));
-    }
-  }
   void addLoad(CLI::App& sub) {
     sub.add_option("--load", load_, "Your scenes, integrators, strategies: FILE.cpp or LIBRARY.so.")
         ->take_all()
@@ -292,6 +269,27 @@ class Program {
     addCompareOptions(*compare, compare_);
   }
 
+  void addTables() {
+    const auto options = [this] {
+      tables_.study = study_;
+      tables_.results = results();
+      tables_.variant = variant();
+      return tables_;
+    };
+    auto* query = verb(app_, "query", "a question in SQL to the tables of a study",
+                       [options](Streams s) { return queryCommand(options(), s); });
+    auto* write = verb(app_, "export", "the tables of a study as a database of SQLite",
+                       [options](Streams s) { return exportCommand(options(), s); });
+    for (auto* sub : {query, write}) {
+      sub->add_option("study", study_, "id or TOML file")->required();
+      addQuick(*sub);
+      addResults(*sub);
+    }
+    query->add_option("sql", tables_.sql, "a select statement; table runs is runs.csv, and so on")->required();
+    query->add_flag("--json", tables_.json, "Print rows as JSON objects, one per line.");
+    write->add_option("file", tables_.file, "the database, such as order.sqlite")->required();
+  }
+
   void addReference() {
     auto* sub =
         verb(app_, "reference", "reference values in 50 digits: two methods, two tolerances each", [this](Streams s) {
@@ -325,6 +323,7 @@ class Program {
   SolveOptions solve_;
   EnsembleArguments ensemble_;
   CompareOptions compare_;
+  TableOptions tables_;
   SceneList scenes_;
   ReferenceOptions reference_;
 };

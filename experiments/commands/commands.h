@@ -162,6 +162,23 @@ struct MergeOptions {
 /// Returns 1 and writes nothing if runs are missing or conflict and `partial` is not set.
 int mergeCommand(MergeOptions options, Streams streams);
 
+/// Whether a study is given by its file, not by its id.
+bool isStudyFile(const std::string& id_or_file);
+
+/// The tables of a study, for SQL.
+struct TableOptions {
+  std::string study;  ///< id or file
+  std::string sql;    ///< of query: a select statement
+  std::string file;   ///< of export
+  bool json = false;
+  std::string results = "results";  ///< with `quick`
+  StudyVariant variant = StudyVariant::kFull;
+};
+/// Prints the rows that a select statement gives, as CSV or as JSON lines. Throws Misuse for any other statement.
+int queryCommand(const TableOptions& options, Streams streams);
+/// Writes all tables to a database of SQLite. Throws Misuse instead of replacing a file that it has not written.
+int exportCommand(const TableOptions& options, Streams streams);
+
 struct CompareOptions {
   std::string first, second;  ///< folders of a study, of results, or of publications
   std::string errors = "2", times = "5%", alpha = "0.05", counters = "0%";

@@ -110,12 +110,6 @@ std::string refusalLine(const std::string& study, const store::Store& store, con
                      textAt(columns, store.runs().row(*outcomes.refused), "detail"));
 }
 
-// Tells a study's file from an id: the figures of an id are those of a built-in study or of its results.
-bool isStudyFile(const std::string& id_or_file) {
-  const std::filesystem::path path(id_or_file);
-  return path.extension() == ".toml" || path.has_parent_path();
-}
-
 // Whether tables are made from the runs.
 bool hasSummaries(const Study& study) { return !study.analyses.empty() || study.audit; }
 
@@ -311,6 +305,11 @@ int paperCommand(const RunOptions& options, Streams streams) {
   worst = std::max(worst, reportCommand(options.runner.results.string(), streams));
   tellDrifts(folders, streams.err);
   return worst;
+}
+
+bool isStudyFile(const std::string& id_or_file) {
+  const std::filesystem::path path(id_or_file);
+  return path.extension() == ".toml" || path.has_parent_path();
 }
 
 int plotCommand(const std::string& id_or_file, StudyVariant variant, const std::string& results, Streams streams) {

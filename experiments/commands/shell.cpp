@@ -259,6 +259,8 @@ std::string examplesOf(const std::string& verb) {
       {"slurm", "  irk slurm order -n 16 > order.sh"},
       {"merge", "  irk merge shard1/order shard2/order --results joined"},
       {"publish", "  irk publish plots/results"},
+      {"query", "  irk query order \"select method, max(steps_accepted) from runs group by method\""},
+      {"export", "  irk export order order.sqlite"},
       {"compare", "  irk compare results other_results"},
       {"reference", "  irk reference kepler --check"},
       {"tableau show", "  irk tableau show radau_iia_3 --digits 30"},

@@ -25,7 +25,7 @@ install(RUNTIME_DEPENDENCY_SET irk_shared
         LIBRARY DESTINATION lib/irk COMPONENT bundled)
 
 # The terms of these libraries, as Debian states them.
-foreach(library mpfr gmp gsl sundials klu amd colamd btf suitesparseconfig fmt benchmark tomlplusplus gomp)
+foreach(library mpfr gmp gsl sundials klu amd colamd btf suitesparseconfig fmt benchmark tomlplusplus sqlite3 gomp)
   file(GLOB copyrights /usr/share/doc/lib${library}*/copyright)
   foreach(copyright IN LISTS copyrights)
     get_filename_component(package ${copyright} DIRECTORY)

@@ -13,8 +13,8 @@ std::string versionText() {
       "  Eigen (MPL 2.0), Boost (BSL 1.0), MPFR (LGPL 3 or later), SuiteSparse's KLU (LGPL 2.1 or later), SUNDIALS "
       "(BSD, 3 clauses), fmt "
       "(MIT),\n"
-      "  Google Benchmark (Apache 2.0), CLI11 (BSD, 3 clauses), toml++ (MIT), nlohmann/json (MIT); the explorer's "
-      "page: "
+      "  Google Benchmark (Apache 2.0), CLI11 (BSD, 3 clauses), toml++ (MIT), nlohmann/json (MIT), SQLite (public "
+      "domain); the explorer's page: "
       "d3 (BSD,\n  3 clauses)",
       buildInfo().version, buildInfo().commit);
 #ifdef IRK_HAS_GSL
