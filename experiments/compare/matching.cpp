@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <compare>
 #include <tuple>
 
 #include "experiments/base/failure.h"
@@ -16,7 +16,6 @@ namespace irk::compare {
 namespace {
 
 constexpr std::string_view kAlwaysNamed[] = {"scene", "settings", "method"};
-constexpr std::uint64_t kMostGroups = 128;  // each may have a file
 
 bool isAlwaysNamed(std::string_view field) {
   return std::find(std::begin(kAlwaysNamed), std::end(kAlwaysNamed), field) != std::end(kAlwaysNamed);
@@ -28,22 +27,21 @@ std::string plainText(const std::string& cell) {
   return std::isnan(number) ? cell : numberText(number);
 }
 
-/// The places of two rows of one run.
+constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
+
+/// The places of two rows of one run. The first table's order, behind it what only the second one has.
 struct Match {
-  std::optional<std::uint64_t> first, second;
+  std::uint64_t first = kNoRow, second = kNoRow;
+  auto operator<=>(const Match&) const = default;
 };
 
 }  // namespace
 
-Matching::Matching(const std::filesystem::path& first, const std::filesystem::path& second, std::uint64_t at_once)
+Matching::Matching(const std::filesystem::path& first, const std::filesystem::path& second)
     : first_(first), second_(second) {
-  const auto bytes = std::filesystem::file_size(first) + std::filesystem::file_size(second);
-  const auto groups = std::min(1 + bytes / at_once, kMostGroups);
   findFields();
-  for (auto* side : {&first_, &second_}) {
-    side->groups.resize(groups);
-    readRows(*side);
-  }
+  readRows(first_);
+  readRows(second_);
 }
 
 void Matching::findFields() {
@@ -72,22 +70,16 @@ void Matching::readRows(Side& side) {
   for (auto position = side.file.position();; position = side.file.position()) {
     const auto row = side.file.next();
     if (!row) break;
-    const auto hash = fnv1a(identity(side, *row));
-    side.groups[hash % side.groups.size()].add({hash, position});
-    const bool is_first = first_.rows + second_.rows == 0;
-    ++side.rows;
+    const std::uint64_t hash = fnv1a(identity(side, *row));
+    const bool is_first = first_.places.empty() && second_.places.empty();
+    side.places.push_back({hash, position});
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (is_first) fields_[i].value = side.plain[i];
       if (side.plain[i] != fields_[i].value) fields_[i].varies = true;
     }
   }
-}
-
-std::vector<Matching::Place> Matching::sortedGroup(const Side& side, std::size_t group) {
-  auto places = side.groups[group].all();
-  std::sort(places.begin(), places.end(),
+  std::sort(side.places.begin(), side.places.end(),
             [](const Place& a, const Place& b) { return std::tie(a.hash, a.position) < std::tie(b.hash, b.position); });
-  return places;
 }
 
 TableRow Matching::rowAt(Side& side, std::uint64_t position) {
@@ -104,31 +96,26 @@ void Matching::visit(std::uint64_t first_at, std::uint64_t second_at, const std:
 }
 
 void Matching::forEachPair(const std::function<void(const Pair&)>& take) {
-  for (std::size_t group = 0; group < first_.groups.size(); ++group) {
-    std::vector<Match> matches;
-    const auto firsts = sortedGroup(first_, group), seconds = sortedGroup(second_, group);
-    for (auto a = firsts.begin(), b = seconds.begin(); a != firsts.end() || b != seconds.end();) {
-      const bool has_first = a != firsts.end() && (b == seconds.end() || a->hash <= b->hash);
-      const bool has_second = b != seconds.end() && (a == firsts.end() || b->hash <= a->hash);
-      Match match;
-      if (has_first) match.first = (a++)->position;
-      if (has_second) match.second = (b++)->position;
-      matches.push_back(match);
-    }
-    // The files are read from their begin to their end.
-    std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
-      return std::tuple(!a.first, a.first, a.second) < std::tuple(!b.first, b.first, b.second);
-    });
-    for (const auto& match : matches) {
-      if (match.first && match.second) {
-        visit(*match.first, *match.second, take);
-      } else if (match.first) {
-        const TableRow row = rowAt(first_, *match.first);
-        take({&row, nullptr, *match.first, 0});
-      } else {
-        const TableRow row = rowAt(second_, *match.second);
-        take({nullptr, &row, 0, *match.second});
-      }
+  const auto &firsts = first_.places, &seconds = second_.places;
+  std::vector<Match> matches;
+  for (auto a = firsts.begin(), b = seconds.begin(); a != firsts.end() || b != seconds.end();) {
+    const bool has_first = a != firsts.end() && (b == seconds.end() || a->hash <= b->hash);
+    const bool has_second = b != seconds.end() && (a == firsts.end() || b->hash <= a->hash);
+    Match match;
+    if (has_first) match.first = (a++)->position;
+    if (has_second) match.second = (b++)->position;
+    matches.push_back(match);
+  }
+  std::sort(matches.begin(), matches.end());
+  for (const auto& [first, second] : matches) {
+    if (first != kNoRow && second != kNoRow) {
+      visit(first, second, take);
+    } else if (first != kNoRow) {
+      const TableRow row = rowAt(first_, first);
+      take({&row, nullptr, first, 0});
+    } else {
+      const TableRow row = rowAt(second_, second);
+      take({nullptr, &row, 0, second});
     }
   }
 }

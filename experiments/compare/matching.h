@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/store/spill_list.h"
 #include "experiments/tables/table_rows.h"
 
 namespace irk::compare {
@@ -25,23 +24,19 @@ struct Pair {
 
 /// Matches the runs of two tables by the fields of a spec that both have. Numbers are compared by value: 0.1 equals
 /// 0.10000000000000001, as older tables write it. Rows with equal fields are matched in their order. Reads both files
-/// once, and again for the pairs. Memory holds the places of the rows of 256 MB of the files, about 20 MB; the others
-/// are in temporary files. Not thread-safe. Throws what readTable throws.
+/// once, and again for the pairs. Memory holds 16 bytes per row, and 16 more per pair while pairs are visited. Not
+/// thread-safe. Throws what readTable throws.
 class Matching {
  public:
-  static constexpr std::uint64_t kAtOnce = 1 << 28;
-
-  /// Rows are matched in groups: one for every `at_once` bytes of the files, up to 128.
-  Matching(const std::filesystem::path& first, const std::filesystem::path& second, std::uint64_t at_once = kAtOnce);
+  Matching(const std::filesystem::path& first, const std::filesystem::path& second);
 
   /// Head and columns, no rows.
   const Table& firstNames() const { return first_.file.names(); }
   const Table& secondNames() const { return second_.file.names(); }
-  std::size_t firstRows() const { return first_.rows; }
-  std::size_t secondRows() const { return second_.rows; }
+  std::size_t firstRows() const { return first_.places.size(); }
+  std::size_t secondRows() const { return second_.places.size(); }
 
-  /// Visits all pairs, group by group, each group in the order of the first table. Throws Failure if the hashes of two
-  /// different runs are equal.
+  /// Visits all pairs in the order of the first table. Throws Failure if the hashes of two different runs are equal.
   void forEachPair(const std::function<void(const Pair&)>& take);
   /// Visits the pair whose rows begin there.
   void visit(std::uint64_t first_at, std::uint64_t second_at, const std::function<void(const Pair&)>& take);
@@ -57,10 +52,9 @@ class Matching {
     explicit Side(const std::filesystem::path& path) : file(path) {}
 
     TableFile file;
-    std::size_t rows = 0;
-    std::vector<std::size_t> columns;             // of fields_
-    std::vector<store::SpillList<Place>> groups;  // by hash
-    TableRow cells, plain;  // of fields_ in the row that was read last, and as `identity` has them
+    std::vector<Place> places;         // of all rows, sorted
+    std::vector<std::size_t> columns;  // of fields_
+    TableRow cells, plain;             // of fields_ in the row that was read last, and as `identity` has them
   };
   struct Field {
     std::string name;
@@ -70,7 +64,6 @@ class Matching {
   void findFields();
   void readRows(Side& side);
   static std::string identity(Side& side, const TableRow& row);
-  static std::vector<Place> sortedGroup(const Side& side, std::size_t group);
   static TableRow rowAt(Side& side, std::uint64_t position);
 
   Side first_, second_;

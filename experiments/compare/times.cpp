@@ -130,13 +130,13 @@ void TimeComparer::note(const Pair& pair) {
   // With every further run the level of each test falls and its interval grows: what is noise now remains noise.
   const Ratio ratio = ratioOf(timed.first, timed.second, limits_.alpha / static_cast<double>(times_.compared));
   ratios_.add(ratio.ratio);
-  if (!isNoise(timed, ratio.low, ratio.high)) slower_or_faster_.add({pair.first_at, pair.second_at});
+  if (!isNoise(timed, ratio.low, ratio.high)) slower_or_faster_.push_back({pair.first_at, pair.second_at});
 }
 
 Times TimeComparer::judge(const Tell& tell) {
   if (times_.compared == 0) return times_;
   const double alpha = limits_.alpha / static_cast<double>(times_.compared);
-  slower_or_faster_.forEach([&](const Place& place) {
+  for (const Place& place : slower_or_faster_) {
     matching_.visit(place.first, place.second, [&](const Pair& pair) {
       const Timed timed = timedOf(pair);
       const Ratio ratio = ratioOf(timed.first, timed.second, alpha);
@@ -145,7 +145,7 @@ Times TimeComparer::judge(const Tell& tell) {
                                  : fmt::format("{:.3g} to {:.3g}", ratio.low, ratio.high);
       tell(pair, fmt::format("time x {:.3g} ({})", ratio.ratio, how), factorOf(1, ratio.ratio));
     });
-  });
+  }
   times_.least = ratios_.least();
   times_.median = ratios_.middle();
   times_.most = ratios_.most();

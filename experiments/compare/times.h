@@ -11,7 +11,6 @@
 
 #include "experiments/compare/comparison.h"
 #include "experiments/compare/matching.h"
-#include "experiments/store/spill_list.h"
 
 namespace irk::compare {
 
@@ -76,7 +75,7 @@ class TimeComparer {
   Columns first_, second_;
   Times times_;
   Spread ratios_;
-  store::SpillList<Place> slower_or_faster_;  // that may be more than noise
+  std::vector<Place> slower_or_faster_;  // that may be more than noise
 };
 
 }  // namespace irk::compare

@@ -1,4 +1,4 @@
-// Tables that are larger than the memory: their rows are matched in groups, and of their times only a summary is kept.
+// Rows of two tables that stand for the same run, and the summary of their times.
 #include "experiments/compare/matching.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace irk::compare {
 namespace {
 
 // Some runs are in one table only, some occur twice, and the second table is ordered differently.
-TEST(Matching, GroupsDoNotChangeThePairs) {
+TEST(Matching, FindsEachRunInBothTables) {
   Table first{{}, {"scene", "method", "h", "residuals"}, {}};
   for (int i = 0; i < 9000; ++i) {
     first.rows.push_back({"kepler", "gauss_2", std::to_string(i), std::to_string(i)});
@@ -31,34 +31,22 @@ TEST(Matching, GroupsDoNotChangeThePairs) {
   const auto a = folder.path() / "first.csv", b = folder.path() / "second.csv";
   writeTable(a, first);
   writeTable(b, second);
-  for (const std::uint64_t at_once : {Matching::kAtOnce, std::uint64_t{10'000}, std::uint64_t{1}}) {
-    Matching matching(a, b, at_once);
-    std::size_t both = 0;
-    std::vector<std::string> only;
-    matching.forEachPair([&](const Pair& pair) {
-      if (!pair.first || !pair.second) {
-        only.push_back((pair.first ? "first " : "second ") + matching.nameOf(pair));
-      } else {
-        ++both;
-        ASSERT_EQ(*pair.first, *pair.second);
-      }
-    });
-    std::sort(only.begin(), only.end());
-    EXPECT_EQ(both, 9009u) << at_once;
-    EXPECT_EQ(only, (std::vector<std::string>{"first kepler gauss_2 h=-7", "second kepler gauss_2 h=-8"})) << at_once;
-  }
-}
-
-TEST(SpillList, KeepsTheOrderOfAnyNumberOfItems) {
-  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, 3 * store::SpillList<std::size_t>::kHeld,
-                                 3 * store::SpillList<std::size_t>::kHeld + 7}) {
-    store::SpillList<std::size_t> list;
-    for (std::size_t i = 0; i < size; ++i) list.add(3 * i);
-    EXPECT_EQ(list.size(), size);
-    const auto all = list.all();
-    ASSERT_EQ(all.size(), size);
-    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(all[i], 3 * i);
-  }
+  Matching matching(a, b);
+  std::size_t both = 0;
+  std::uint64_t before = 0;
+  std::vector<std::string> only;
+  matching.forEachPair([&](const Pair& pair) {
+    if (!pair.first || !pair.second) {
+      only.push_back((pair.first ? "first " : "second ") + matching.nameOf(pair));
+    } else {
+      ++both;
+      ASSERT_EQ(*pair.first, *pair.second);
+      EXPECT_GE(pair.order(), before) << "in the order of the first table";
+      before = pair.order();
+    }
+  });
+  EXPECT_EQ(both, 9009u);
+  EXPECT_EQ(only, (std::vector<std::string>{"first kepler gauss_2 h=-7", "second kepler gauss_2 h=-8"}));
 }
 
 // The middle of 1, 2, ... n, in any order.
