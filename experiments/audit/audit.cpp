@@ -15,7 +15,7 @@
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/tables/keyed_file.h"
+#include "experiments/tables/grouped_file.h"
 #include "irk/collections.h"
 
 namespace irk::audit {
@@ -171,6 +171,11 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
           commandOf(drawn)};
 }
 
+std::optional<TableRow> rowWith(const std::string& key, const GroupedFile& table) {
+  const auto group = table.find({key});
+  return group ? std::optional(table.group(*group).back()) : std::nullopt;
+}
+
 Result resultIn(const Table& states, const std::optional<TableRow>& row) {
   if (!row) return {};
   const auto vectorAt = [&](const char* column) {
@@ -183,15 +188,15 @@ Result resultIn(const Table& states, const std::optional<TableRow>& row) {
 
 void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
                 const Answers& answers, const std::filesystem::path& file) {
-  KeyedFile made(runs), ends(states);
+  const GroupedFile made(runs, {"key"}), ends(states, {"key"});
   TableWriter table(file, made.names().head, kColumns);
   for (std::size_t i = 0; i < draw.size(); ++i) {
     const DrawnRun drawn = draw[i];
     const auto key = specKey(drawn.spec);
-    const auto row = made.find(key);
+    const auto row = rowWith(key, made);
     if (!row) continue;  // not run because of an interrupt
     const auto answer = answers.find(questionOf(drawn.spec));
-    table.add(auditRow(i, drawn, made.names(), *row, resultIn(ends.names(), ends.find(key)),
+    table.add(auditRow(i, drawn, made.names(), *row, resultIn(ends.names(), rowWith(key, ends)),
                        answer == answers.end() ? Answer{} : answer->second));
   }
   table.close();

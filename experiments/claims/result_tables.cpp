@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "experiments/analyses/results.h"
 #include "experiments/runs/block_names.h"
@@ -51,9 +53,13 @@ Table ResultTables::forEachRun(std::string_view study, const std::function<bool(
     return names;
   }
   auto& file = files_[std::string(study)];
-  if (!file) file = std::make_shared<BlockFile>(fileOf(study, "runs"));
+  if (!file) file = std::make_shared<GroupedFile>(fileOf(study, "runs"), std::vector{std::string(kBlockColumn)});
   requireTimes(study, file->names());
-  file->forEachRow(wanted, [&](TableRow row) { take(file->names(), std::move(row)); });
+  std::vector<std::size_t> groups;
+  for (std::size_t i = 0; i < file->size(); ++i) {
+    if (wanted(file->nameOf(file->firstRow(i)).front())) groups.push_back(i);
+  }
+  file->forEachRowOf(groups, [&](TableRow row) { take(file->names(), std::move(row)); });
   return file->names();
 }
 

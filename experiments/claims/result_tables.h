@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/claims/block_file.h"
+#include "experiments/tables/grouped_file.h"
 #include "experiments/tables/table.h"
 
 namespace irk::claims {
@@ -45,8 +45,8 @@ class ResultTables {
   std::filesystem::path fileOf(std::string_view study, std::string_view name) const;
 
   std::filesystem::path results_;
-  mutable std::map<std::string, Table> tables_;                                   // by study/name
-  mutable std::map<std::string, std::shared_ptr<BlockFile>, std::less<>> files_;  // of runs, by study
+  mutable std::map<std::string, Table> tables_;                        // by study/name
+  mutable std::map<std::string, std::shared_ptr<GroupedFile>> files_;  // runs by blocks, by study
 };
 
 }  // namespace irk::claims

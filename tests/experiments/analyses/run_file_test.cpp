@@ -9,7 +9,6 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
-#include "experiments/tables/keyed_file.h"
 #include "irk/collections.h"
 #include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
@@ -109,18 +108,40 @@ TEST_F(WholeTables, SeriesHaveTheSameRowsInTheSameOrder) {
   EXPECT_EQ(rows, runs().rows);
 }
 
-TEST_F(WholeTables, RowsAreFoundByTheirKeys) {
+// Each key is a group, and a second row with a key belongs to its group.
+TEST_F(WholeTables, GroupsAreFoundByTheirNames) {
   Table twice = runs();
   twice.rows.push_back(twice.rows[2]);
-  twice.rows.back().back() = "later";
   ofFile(twice, [&](const auto& path) {
-    KeyedFile keyed(path);
-    for (std::size_t i = twice.rows.size(); i-- > 0;) {
-      EXPECT_EQ(keyed.find(twice.rows[i].front()), twice.rows[i == 2 ? twice.rows.size() - 1 : i]);
+    const GroupedFile by_key(path, {"key"});
+    EXPECT_EQ(by_key.size(), runs().rows.size());
+    for (std::size_t i = runs().rows.size(); i-- > 0;) {
+      const auto group = by_key.find({runs().rows[i].front()});
+      EXPECT_EQ(group, i);
+      EXPECT_EQ(by_key.group(i), std::vector<TableRow>(i == 2 ? 2 : 1, runs().rows[i]));
     }
-    EXPECT_EQ(keyed.find("0"), std::nullopt);
+    EXPECT_EQ(by_key.find({"0"}), std::nullopt);
     return 0;
   });
+}
+
+// Rows of several groups that do not follow each other.
+TEST_F(WholeTables, RowsOfGroupsComeInTheOrderOfTheFile) {
+  const auto method = runs().column("method"), outcome = runs().column("outcome");
+  const GroupedFile grouped(file(), {"method", "outcome"});
+  std::vector<std::size_t> groups;
+  for (std::size_t i = grouped.size(); i-- > 0;) {
+    if (grouped.firstRow(i)[outcome] == "success") groups.push_back(i);
+  }
+  ASSERT_GT(groups.size(), 1u);
+  std::vector<TableRow> rows, expected;
+  grouped.forEachRowOf(groups, [&](TableRow row) { rows.push_back(std::move(row)); });
+  for (const auto& row : runs().rows) {
+    if (row[outcome] == "success") expected.push_back(row);
+  }
+  EXPECT_EQ(rows, expected);
+  EXPECT_EQ(grouped.nameOf(rows.front()), (TableRow{rows.front()[method], "success"}));
+  EXPECT_TRUE(containsAll(misuseOf([] { GroupedFile(file(), {"metod"}); }), {"metod", "did you mean 'method'"}));
 }
 
 // All pairs of series of a block, compared by their cells.
