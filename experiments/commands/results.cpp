@@ -23,6 +23,7 @@
 #include "experiments/runner/merge.h"
 #include "experiments/runner/shard_plan.h"
 #include "experiments/runner/status.h"
+#include "experiments/runner/study_file.h"
 #include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "irk/misuse.h"
@@ -136,6 +137,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     if (!std::filesystem::equivalent(from, folder, none)) continue;
     throw Misuse(fmt::format("{}: the rows are merged there, and those that are there count: leave it out", from));
   }
+  if (isStudyFile(options.study)) keepStudyFile(options.study, folder);
   store::Store merged(folder, study.id, store::Use::kWrite, options.store, streams.err);
   std::vector<const store::Store*> all{&merged};
   for (const auto& store : stores) all.push_back(store.get());

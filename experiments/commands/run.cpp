@@ -24,6 +24,7 @@
 #include "experiments/runner/ranks.h"
 #include "experiments/runner/shard_plan.h"
 #include "experiments/runner/skipped_runs.h"
+#include "experiments/runner/study_file.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/series_walk.h"
@@ -248,6 +249,7 @@ StudiesProgress paperProgress(StudyVariant variant) {
 int runCommand(const RunOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant, options.peers);
   const FigureTables figures = figuresOfStudy(study, options.study);
+  if (isStudyFile(options.study)) keepStudyFile(options.study, studyFolder(study, options.runner));
   const auto ranks = joinRanks();
   if (ranks->count() == 1) {
     const InterruptScope interrupts;

@@ -56,6 +56,26 @@ TEST_F(OwnStudies, WithoutResultsAreStatusOne) {
   EXPECT_TRUE(containsAll(ended.err, {"no results of study 'small'", "irk run " + study()}));
 }
 
+// Their tables would replace each other. A copy, and a file that was moved, are the same study.
+TEST_F(OwnStudies, TwoFilesOfOneNameDoNotShareAFolder) {
+  ASSERT_EQ(run().status, 0);
+  const Table before = runs();
+  const std::filesystem::path other = folder_.path() / "other" / "small.toml";
+  std::filesystem::create_directories(other.parent_path());
+  std::ofstream(other) << kSmall << "max_steps = 5\n";
+  const std::vector<std::string> run_other{"run", other, "--results", results()};
+  const Ended refused = program(run_other);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(containsAll(refused.err, {results() + "/small", study(), other, "same name", "--results"}));
+  EXPECT_EQ(runs().rows, before.rows);
+  std::filesystem::copy_file(study(), other, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(program(run_other).status, 0);
+  std::ofstream(study(), std::ios::app) << "max_steps = 5\n";
+  EXPECT_EQ(run().status, 2) << "the copy has been run last";
+  std::filesystem::remove(other);
+  EXPECT_EQ(run().status, 0);
+}
+
 TEST_F(OwnStudies, MergedShardsHaveTheirFigures) {
   ASSERT_EQ(run("parts", {"--shard", "1/2"}).status, 0);
   ASSERT_EQ(run("parts", {"--shard", "2/2"}).status, 0);
