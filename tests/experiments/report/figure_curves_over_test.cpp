@@ -136,6 +136,13 @@ TEST(FigureCurves, Scaling) {
   expectPoints(svg.marks('b', 2, kLog, kLog), {{10, 4e-5}, {1000, 6e-3}}, "five stages");
   EXPECT_EQ(svg.occurrences("decoupled, sparse</text>"), 1);
   EXPECT_EQ(svg.occurrences("2 threads"), 0) << "not drawn, so not in the legend";
+
+  // The time that passes says nothing about one thread if other programs run beside it.
+  for (auto& row : rows) row["step_cpu_s"] = exact(2e-5);
+  drawing.put("scaling.csv", {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s", "step_cpu_s"},
+              rows);
+  const Svg of_cpu = drawing.draw("scaling.gp", "");
+  expectPoints(of_cpu.marks('a', 2, kLog, kLog), {{10, 2e-5}, {100, 2e-5}, {1000, 2e-5}}, "CPU time of one thread");
 }
 
 TEST(FigureCurves, Parallel) {
