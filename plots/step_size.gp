@@ -19,16 +19,22 @@ array Colour[count]; array Stages[count]
 do for [k = 1 : count] { Stages[k] = stagesIn(word(methods, k)); Colour[k] = stageColour(Stages[k]) }
 least = 1e300; most = 0
 array Last[n]
+array First[n * count]
+slot(i, k) = (i - 1) * count + k
 # The step of at most six labels from 0 to `end`.
 power(x) = 10 ** floor(log10(x))
 fewTics(end) = (unit = power(end / 5), end <= 5.001 * unit ? unit : end <= 10.001 * unit ? 2 * unit : end <= 25.001 * unit ? 5 * unit : 10 * unit)
 do for [i = 1 : n] { Last[i] = 0; do for [k = 1 : count] { if (there(i, k)) {
   undefine H_*; undefine T_*
+  First[slot(i, k)] = NaN
+  stats file(i, k) using (column("h") > 0 && !(First[slot(i, k)] > 0) ? (First[slot(i, k)] = column("h")) : 0) nooutput
   stats file(i, k) using "t" name "T" nooutput
   Last[i] = exists("T_max") && T_max > Last[i] ? T_max : Last[i]
   stats file(i, k) using (column("h") > 0 ? log10(column("h")) : NaN) name "H" nooutput
   if (exists("H_min")) { least = 10 ** H_min < least ? 10 ** H_min : least; most = 10 ** H_max > most ? 10 ** H_max : most }
 } } }
+# The row of the start has no step: the first step is drawn from there on.
+stepOf(i, k) = absent("h") ? First[slot(i, k)] : positive(column("h"))
 jumps(i) = words(marks) >= i ? word(marks, i) : ''
 
 margin_left = n == 1 ? 0.12 : 0.075; margin_right = 0.02; margin_bottom = 0.25; gap_x = 0.03
@@ -54,7 +60,7 @@ do for [format in formats] {
     here = ""
     do for [k = 1 : count] { here = here.(there(i, k) ? sprintf(" %d", k) : "") }
     if (words(here) > 0) {
-      plot for [k in here] file(i, number(k)) using "t":(positive(column("h"))) \
+      plot for [k in here] file(i, number(k)) using "t":(stepOf(i, number(k))) \
         with fsteps lw 1.4 lc rgb Colour[number(k)] notitle
     } else {
       set label 1 'no run' at graph 0.5, graph 0.5 center textcolor rgb ink

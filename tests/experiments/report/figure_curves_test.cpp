@@ -41,11 +41,13 @@ TEST(FigureCurves, StepSize) {
     return ends;
   };
   const auto a = levels('a', 1), b = levels('a', 2), c = levels('b', 1);
-  ASSERT_GE(a.size(), 2u);
+  ASSERT_GE(a.size(), 3u);
   ASSERT_GE(b.size(), 2u);
   ASSERT_GE(c.size(), 1u);
   EXPECT_NEAR(a.back().x, 1, 0.01);
   EXPECT_NEAR(a.back().y, 0.6, 0.01);
+  EXPECT_NEAR(a[a.size() - 3].x, 0.1, 0.01) << "the first step, from the start on";
+  EXPECT_NEAR(a[a.size() - 3].y, 0.1, 0.01);
   EXPECT_NEAR(a[a.size() - 2].x, 0.4, 0.01);
   EXPECT_NEAR(a[a.size() - 2].y, 0.3, 0.01);
   EXPECT_NEAR(b.back().y, 0.95, 0.02);
