@@ -71,7 +71,7 @@ do for [format in formats] {
       if (i > 1) { set format y '' }
       set ylabel when(i == 1, cost eq 'cpu_s' ? 'CPU time in s' : cost) offset 1,0 noenhanced
       unset key
-      if (i == n) { set key at graph 1.03, graph 1 left top Left reverse enhanced title 'error' }
+      if (i == n) { set key at graph 1.03, graph 1 left top Left reverse enhanced title 'error' left }
       plot for [k = 1 : count] file using "stages":(reached(case, target(k))) \
              with points pt errorPoint(k) ps 0.8 lc rgb errorColour(k) notitle, \
            for [k = 1 : count] file \

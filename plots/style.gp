@@ -38,12 +38,14 @@ set style textbox opaque border lc rgb 0xcccccc
 
 decades(axis) = sprintf("set logscale %s; set format %s '10^{%%L}'; set m%stics 1", axis, axis, axis)
 
-# A logarithmic axis of less than two decades has too few labels at the decades alone; it gets labels at 1, 2, 5.
-label125(m, e) = m == 1 ? sprintf("10^{%d}", e) : sprintf("%d·10^{%d}", m, e)
-tics125(axis, low, high) = (tics = '', sum [e = int(floor(log10(low))) : int(ceil(log10(high)))] sum [k = 1 : 3] \
-  (strlen(tics = tics.sprintf("%s'%s' %g", strlen(tics) ? ', ' : '', label125(int("125"[k:k]), e), int("125"[k:k]) * 10.0 ** e))), \
+# A logarithmic axis of less than two decades has too few labels at the decades alone; it gets labels at 1, 2, 5, and if
+# its numbers are almost equal at more of them.
+digitLabel(digit, e) = digit eq '1' ? sprintf("10^{%d}", e) : sprintf("%s·10^{%d}", digit, e)
+digitTics(digits, axis, low, high) = (tics = '', sum [e = int(floor(log10(low))) : int(ceil(log10(high)))] sum [k = 1 : words(digits)] \
+  (strlen(tics = tics.sprintf("%s'%s' %g", strlen(tics) ? ', ' : '', digitLabel(word(digits, k), e), real(word(digits, k)) * 10.0 ** e))), \
   sprintf("set %stics (%s) nomirror", axis, tics))
-logTics(axis, low, high) = high / low < 99 ? tics125(axis, low, high) : sprintf("set %stics autofreq nomirror", axis)
+logTics(axis, low, high) = high / low < 2.5 ? digitTics('1 1.5 2 3 4 5 6 8', axis, low, high) \
+  : high / low < 99 ? digitTics('1 2 5', axis, low, high) : sprintf("set %stics autofreq nomirror", axis)
 
 # Labels of a horizontal axis of so many decades and points: at every decade, every second, fourth, ..., so that they stay
 # apart. An axis of few decades keeps gnuplot's.

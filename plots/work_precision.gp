@@ -79,7 +79,7 @@ do for [format in formats] {
       c = word(costs, i)
       set xrange [*:*]; set yrange [*:*]   # stats uses only values inside the ranges
       stats file using (chosen(0) && error(0) > 0 ? positive(column(c)) : NaN) name "C" nooutput
-      set mytics (C_max / C_min < 1e3 ? 10 : 1)
+      eval logTics('y', C_min, C_max)
       # Failures: a strip above all lines, fewer stages lower.
       strip = C_max * (C_max / C_min) ** 0.06
       level(k) = strip * (C_max / C_min) ** (0.02 * k)
@@ -89,7 +89,7 @@ do for [format in formats] {
       set xlabel when(i > n - columns, errorTitle(quantity, times))
       set ylabel cost_title(c) offset 1,0
       unset key
-      if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' }
+      if (i == columns || n == 1) { set key at graph 1.03, graph 1 left top Left reverse title 'stages' left }
       plot for [k = 1 : count] file using (reached(k)):(positive(column(c))) \
              with linespoints lw 1.2 dt methodDash(curves, k) pt methodPoint(curves, k) ps 0.7 \
              lc rgb methodColour(curves, k) title methodTitle(curves, k), \

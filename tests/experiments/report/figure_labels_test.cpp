@@ -53,6 +53,20 @@ TEST(FigureLabels, OfTimesStayApartInThreePanels) {
   }
 }
 
+// An axis with a single number cannot be read.
+TEST(FigureLabels, OfAlmostEqualCostsAreSeveral) {
+  Drawing drawing;
+  std::vector<Cells> rows;
+  for (int i = 1; i < 4; ++i) {
+    rows.push_back(run(i, {{"scene", "pendulum"}, {"newton", "full"}, {"residuals", exact(1200 + i)}}));
+  }
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg svg = drawing.draw("work_by.gp", "variant='newton'; cases='pendulum'; costs='residuals'");
+  int numbers = 0;
+  for (const auto& label : svg.panel('a').y) numbers += !std::isnan(labelNumber(label.text));
+  EXPECT_GE(numbers, 2);
+}
+
 // Quick studies leave some of a figure's cases out; empty axes would look like a failure.
 TEST(FigureLabels, NameAPanelWithoutRuns) {
   Drawing drawing;
