@@ -53,10 +53,12 @@ solver_tics = solver_tics.") nomirror scale 0 noenhanced textcolor rgb ink"
 
 columns = panels == 1 ? 1 : 2
 lines = (panels + columns - 1) / columns
-height = 116 + lines * (60 + 22 * words(solvers))
+legend_rows = columns == 1 ? words(parts) : 2
+legend_height = 12.0 + 18 * legend_rows
+height = 68 + legend_height + lines * (60 + 22 * words(solvers))
 longest = 0   # letters of the longest name, about 6.6 px each
 do for [w in solvers] { longest = longest > strlen(w) ? longest : strlen(w) }
-margin_left = columns == 1 ? (20 + 6.6 * longest) / 640 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = 100.0 / height
+margin_left = columns == 1 ? (20 + 6.6 * longest) / 640 : 0.19; margin_right = 0.02; margin_top = 30.0 / height; margin_bottom = (52.0 + legend_height) / height
 gap_x = 0.03; gap_y = 50.0 / height
 do for [format in formats] {
   eval open(format, columns == 1 ? 640 : 1080, height)
@@ -67,7 +69,7 @@ do for [format in formats] {
     eval panel(i, columns, lines)
     eval tolerance_tics
     if ((i - 1) % columns == 0) { eval solver_tics } else { unset ytics }
-    set title word(shown, i) offset 0,-0.6 noenhanced
+    set title (word(shown, i) eq 'all' ? 'all scenes' : word(shown, i)) offset 0,-0.6 noenhanced
     set xlabel when(i > panels - columns, 'tolerance') offset 0,0.3
     plot for [k = 1 : 4] file using (left(i, below(k))):(line(i)):(left(i, below(k))):(left(i, upTo(k))):(line(i) - 0.38):(line(i) + 0.38) \
         with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
@@ -76,7 +78,8 @@ do for [format in formats] {
       file using (isFirst(i) ? number_place : outside):(line(i)):(sprintf("%d", column("runs"))) \
         with labels textcolor rgb ink font ',11' notitle
   }
-  eval legend(48.0 / height)
+  eval legend(legend_height / height)
+  set key maxrows legend_rows
   plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb colour(k) title word(part_titles, k)
   unset multiplot
   unset output
