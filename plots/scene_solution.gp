@@ -1,8 +1,7 @@
 # A scene's solution over time, one panel per kind of quantity.
 #   gnuplot -e "data='results/scenes'; out='solution'; scene='SCENE'" scene_solution.gp
-# Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels, log_time (1: a
-# logarithmic time axis, from the first step on), log_values (> 0: logarithmic values, from
-# this one on).
+# Reads <scene>.<method>.csv: t and the components by name. Options: scene, method, file_name, panels, time_label, log_time
+# (1: a logarithmic time axis, from the first step on), log_values (> 0: logarithmic values, from this one on).
 load system('dirname "'.ARG0.'"')."/style.gp"
 if (!exists("method")) method = 'radau_iia_5'
 if (!exists("log_time")) log_time = 0
@@ -13,7 +12,7 @@ file = data.'/'.file_name.'.csv'
 # A panel is "label|columns|factor", with a factor for conversion to another unit; a column a:b draws b over a with
 # equal scales (an orbit). The program writes the scene's panels and the label of the time axis into the table's head.
 if (!exists("panels")) panels = fromHead(file, 'panels')
-time_label = fromHead(file, 'time')
+if (!exists("time_label")) time_label = fromHead(file, 'time')
 panels_note = fromHead(file, 'panels_note')
 if (time_label eq '') time_label = 't'
 
@@ -50,6 +49,7 @@ if (panels eq '') {  # a table of an older program
 there(c) = position(header, over(c)) && position(header, of(c))
 label(p) = p[1 : strstrt(p, '|') - 1]
 behind(p) = p[strstrt(p, '|') + 1 : strlen(p)]
+unit(p) = strstrt(label(p), ' in ') ? label(p)[strstrt(label(p), ' in ') : *] : ''
 content(p) = strstrt(behind(p), '|') ? label(behind(p)) : behind(p)
 factor(p) = strstrt(behind(p), '|') ? behind(behind(p)) : '1'
 # Text of a table's head is evaluated only if it consists of the characters of a number.
@@ -78,7 +78,7 @@ do for [format in formats] {
   eval open(format, width, 60 + 270 * lines)
   set multiplot
   if (words(jumps)) { set label 99 jump_note at screen 0.985, screen 1 right offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
-  if (panels_note ne '') { set label 98 panels_note at screen 0.015, screen 1 left offset 0,-0.6 font ',10' textcolor rgb ink noenhanced }
+  if (panels_note ne '') { set label 98 panels_note at screen 0.015, screen 1 left offset exists("quick") ? 20 : 0,-0.6 font ',10' textcolor rgb ink noenhanced }
   do for [i = 1 : n] {
     p = word(kept, i)
     list = content(p)
@@ -86,10 +86,11 @@ do for [format in formats] {
     eval panel(i, columns, lines)
     set ylabel label(p) offset 0,0 noenhanced
     orbit = strstrt(list, ':') > 0
-    set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)) : time_label) offset 0,0.3 noenhanced
+    set xlabel when(i > n - columns || orbit, orbit ? over(word(list, 1)).unit(p) : time_label) offset 0,0.3 noenhanced
     unset key
     if (words(list) > 1) { set key at graph 0, graph 1.02 left bottom horizontal Left reverse samplen 1.2 maxrows 1 font ',10' }
     set xrange [*:*] noextend
+    if (log_time && !orbit) { set xrange [first_step : W_max] }
     set yrange [*:*]
     set size noratio; set xtics autofreq
     if (log_time && !orbit) { eval decades("x"); set xtics autofreq; if (W_max / first_step > 1e8) { set xtics 1e4 } }
