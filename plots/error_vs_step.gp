@@ -71,27 +71,30 @@ interval(i, k) = 1 + Count[slot(i, k)] / 24   # draws a mark only at some of the
 seriesTitle(i, k) = sprintf("%s%s", methodTitle(methods, k), \
   Fitted[slot(i, k)] == Fitted[slot(i, k)] ? sprintf(": %.2f", Fitted[slot(i, k)]) : "")
 
+columns = n == 1 ? 1 : 2
+lines = (n + columns - 1) / columns
 # The names of twins need room beside each panel.
 longest = 0
 do for [i = 1 : n] { do for [k = 1 : words(methods)] { length = strlen(seriesTitle(i, k)); longest = length > longest ? length : longest } }
 room = longest > 9 ? 7.0 * (longest - 9) : 0
-usual = n == 1 ? 640.0 : 540.0 * n
-width = usual + n * room
-margin_left = (n == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((n == 1 ? 0.2 : 0.125) * usual + room) / width
-margin_bottom = 0.14; gap_x = n == 1 ? 0 : (0.17 * usual + room) / width
+usual = columns == 1 ? 640.0 : 1080.0
+width = usual + columns * room
+height = 60.0 + 360 * lines
+margin_left = (columns == 1 ? 0.12 : 0.075) * usual / width; margin_right = ((columns == 1 ? 0.2 : 0.125) * usual + room) / width
+margin_top = 30 / height; margin_bottom = 60 / height; gap_y = 80 / height; gap_x = columns == 1 ? 0 : (0.17 * usual + room) / width
 do for [format in formats] {
-  eval open(format, width, 420)
+  eval open(format, width, height)
   if (rows == 0) { eval nothing(caseName) } else {
     set multiplot
     eval decades("x"); eval decades("y")
     set xrange [H_min / 1.4 : H_max * 1.4]; set yrange [y_min : y_max]
     do for [i = 1 : n] {
       f = word(families, i)
-      eval panel(i, n, 1)
+      eval panel(i, columns, lines)
       set title familyTitle(f) offset 0,-0.5 noenhanced
-      set xlabel 'step h'
-      set ylabel when(i == 1, 'error') offset 1,0
-      set key at graph 1.02, graph 1 left top Left reverse title (has_fits ? 's: order' : 'stages')
+      set xlabel when(i > n - columns, 'step h')
+      set ylabel when(columns == 1 || i % columns == 1, 'error') offset 0,0
+      set key at graph 1.02, graph 1 left top Left reverse title (has_fits ? 's: order' : 'stages') left
       unset arrow; unset label
       do for [s in scalars] { if (position(round_offs, s) && 100 * roundOff(s) > y_min && roundOff(s) < y_max && rows > 0) {
         set arrow from graph 0, first roundOff(s) to graph 1, first roundOff(s) nohead dt 2 lw 1 lc rgb 0x888888 back
