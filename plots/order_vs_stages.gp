@@ -25,7 +25,7 @@ theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory")
 remember(d) = absent("theory") ? 0 : collect(group(0).':'.strcol("component"))
 theoryFile(family, k) = position(with_all, pairOfPart(family, k)) ? theories : file
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
-unmeasured(family, k) = row(family, k) && !is_measured(0) ? 0.6 * y_min : outside
+unmeasured(family, k) = row(family, k) && !is_measured(0) ? y_min + 0.026 * (y_max - y_min) : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, so that marks do not overlap
 
 eval clashes(file)

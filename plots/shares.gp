@@ -30,6 +30,7 @@ below(k) = k == 1 ? 0 : sum [j = 1 : k - 1] share(j)
 size_tics = "set xtics ("; do for [k = 1 : words(sizes)] {
   size_tics = size_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', word(sizes, k), k) }
 size_tics = size_tics.")"
+solverTitle(s) = s eq 'coupled_dense' ? 'coupled, dense' : s eq 'schur' ? 'decoupled (Schur)' : s
 stagesIn(method) = system("echo '".method."' | sed 's/.*_//'")
 
 margin_left = columns == 1 ? 0.19 : 0.085; margin_right = 0.02; margin_top = 0.07; margin_bottom = columns == 1 ? 0.27 : 0.2; gap_x = 0.025; gap_y = 0.05
@@ -45,7 +46,7 @@ do for [format in formats] {
     if (i == 1) { set ytics ('0' 0, '25 %%' 0.25, '50 %%' 0.5, '75 %%' 0.75, '100 %%' 1) nomirror textcolor rgb ink } else { unset ytics }
     set title when(j == 1, 's = '.stagesIn(word(methods, i))) offset 0,-0.5
     set xlabel when(j == lines, 'unknowns n of one stage') offset 0,0.3
-    set ylabel when(i == 1, word(solvers, j)) offset 0.5,0 noenhanced
+    set ylabel when(i == 1, solverTitle(word(solvers, j))) offset 0.5,0 noenhanced
     plot for [k = 1 : words(parts)] file using (at(word(solvers, j), word(methods, i)) ? place(0) : outside):(below(k) + share(k) / 2):(0.38):(share(k) / 2) \
       with boxxyerror fs solid noborder lc rgb int(word(part_colours, k)) notitle
   } }
