@@ -96,7 +96,7 @@ margin_left = columns == 1 ? 0.13 : 0.085; margin_right = 0.02; margin_top = lin
 margin_bottom = legend_height + 66 / height
 gap_x = words(cases) > 1 ? 0.065 : 0.09; gap_y = 100 / height
 width = columns == 1 ? 640.0 : 1080.0
-decade_tics = decadeTics(log10(4 * coarsest / finest), width * cellWidth(columns))
+if (rows > 0) { decade_tics = decadeTics(log10(4 * coarsest / finest), width * cellWidth(columns)) }
 do for [format in formats] {
   eval open(format, width, height)
   if (rows == 0) { eval nothing(cases) } else {
@@ -112,7 +112,7 @@ do for [format in formats] {
       set xrange [2 * coarsest : finest / 2]
       set yrange [Least[i] / 1.5 : level(count + 1)]
       eval panel(i, columns, lines)
-      set title when(words(cases) > 1 || words(titles) > 0, caseTitle(i)) offset 0,-0.5 noenhanced
+      set title when(words(cases) > 1 || words(costs) == 1 || words(titles) > 0, caseTitle(i)) offset 0,-0.5 noenhanced
       set xlabel when(i > panels - columns, errorTitle(quantity, times))
       set ylabel when(words(costs) > 1 || i % columns == 1 || columns == 1, cost_title(c)) offset 1,0 noenhanced
       if (Marks[i] == 0) {

@@ -85,6 +85,15 @@ TEST(FigureLabels, NameAPanelWithoutRuns) {
   EXPECT_EQ(svg.occurrences("no run with a known error"), 1);
 }
 
+TEST(FigureLabels, SayThatNoRunHasAnError) {
+  Drawing drawing;
+  const std::vector<Cells> rows = {
+      run(1, {{"scene", "pendulum"}, {"newton", "full"}, {"outcome", "refused"}, {"error", "nan"}})};
+  drawing.put("runs.csv", kRunColumns, rows);
+  const Svg svg = drawing.draw("work_by.gp", "variant='newton'; cases='pendulum'; costs='residuals'");
+  EXPECT_EQ(svg.occurrences("no run with a known error"), 1);
+}
+
 // Curve 1 is the line of the first choice.
 TEST(FigureCurves, CostRatio) {
   Drawing drawing;
