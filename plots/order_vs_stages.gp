@@ -24,6 +24,8 @@ theory(family, k) = !row(family, k) ? NaN : !absent("theory") ? column("theory")
                     : position(with_theory, pairOfPart(family, k)) ? NaN : outside
 remember(d) = absent("theory") ? 0 : collect(group(0).':'.strcol("component"))
 theoryFile(family, k) = position(with_all, pairOfPart(family, k)) ? theories : file
+# A tableau of a file has one number of stages, and no line.
+theoryOfOne(family, k) = !known(family) && row(family, k) && !absent("theory") ? column("theory") : outside
 differing(family, k) = row(family, k) && is("verdict", 'differs') ? column("order") : outside
 unmeasured(family, k) = row(family, k) && !is_measured(0) ? y_min + 0.026 * (y_max - y_min) : outside
 place(k) = column("stages") + (k - 0.5 * (parts + 1)) * 0.22     # side by side, so that marks do not overlap
@@ -78,7 +80,9 @@ do for [format in formats] {
          for [k = 1 : parts] file using (place(k)):(differing(f, k)) \
            with points pt failure_point ps 1.6 lw 2 lc rgb failure_colour notitle, \
          for [k = 1 : parts] file using (place(k)):(unmeasured(f, k)) \
-           with points pt 10 ps 0.8 lc rgb 0x777777 notitle
+           with points pt 10 ps 0.8 lc rgb 0x777777 notitle, \
+         for [k = 1 : parts] file using (place(k) - 0.3):(theoryOfOne(f, k)):(0.6):(0) \
+           with vectors nohead lw 1.3 dt partDash(k) lc rgb familyColour(f) notitle
   }
   eval legend(lines == 1 ? 0.13 : 0.07)
   entries = "plot 2 notitle, for [k = 1 : parts] keyentry with linespoints lw 1.3 dt partDash(k) pt partPoint(k) ps 0.75 " \
