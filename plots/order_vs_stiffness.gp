@@ -92,7 +92,7 @@ do for [format in formats] {
          for [k = 1 : words(here)] $D index k - 1 using 1:2 \
            with linespoints lw 1.2 dt stageDash(stage(k)) pt stagePoint(stage(k)) ps 0.8 lc rgb stageColour(stage(k)) notitle, \
          for [k = 1 : words(here)] $D index k - 1 using ($1 * 1.5 ** (k - 0.5 * (words(here) + 1))):($4 == 1 ? y_min + 0.3 : outside) \
-           with points pt 8 ps 0.9 lc rgb stageColour(stage(k)) notitle
+           with points pt 1 ps 0.9 lw 1.6 lc rgb stageColour(stage(k)) notitle
     set datafile columnheaders; set datafile missing NaN
     undefine $D
   }
@@ -100,7 +100,7 @@ do for [format in formats] {
   plot 2 notitle, for [s in stages] keyentry with linespoints lw 1.2 dt stageDash(int(s)) pt stagePoint(int(s)) ps 0.8 \
          lc rgb stageColour(int(s)) title 's = '.s, \
        keyentry with lines lw 4 lc rgb 0xc8c8c8 title 'theory', \
-       keyentry with points pt 8 ps 0.9 lc rgb ink title 'not measurable'
+       keyentry with points pt 1 ps 0.9 lw 1.6 lc rgb ink title 'not measurable'
   unset multiplot
   unset output
   unset logscale

@@ -263,7 +263,7 @@ TEST(FigureCurves, OrderVsStiffness) {
   add("lambda=-1e8/h", 2, "11");  // no single stiffness
   drawing.put("orders.csv", kOrderColumns, rows);
   const Svg svg = drawing.draw("order_vs_stiffness.gp", "scene='prothero_robinson'");
-  // For each of two numbers of stages: the bars of theory, the lines, the triangles.
+  // For each of two numbers of stages: the bars of theory, the lines, the plus signs.
   expectPoints(svg.line('a', 1, kLog, kLin), {{4e7, 3}, {2.5e8, 3}}, "theory", 2e-2);
   expectPoints(svg.marks('a', 3, kLog, kLin), {{1e2, 3.9}, {1e4, 2.5}, {1e8, 2.1}}, "s = 2", 1e-2);
   expectPoints(svg.marks('a', 4, kLog, kLin), {{1e2, 5.9}, {1e8, 4.4}}, "s = 3", 1e-2);
