@@ -1,6 +1,6 @@
 # Order reduction: observed order against the stiffness, one panel per family, one line per number of stages. Grey
 # bars show the theoretical orders where they are known. Where the order is not measurable the line is broken, and a
-# triangle stands on the axis.
+# plus sign stands on the axis.
 #   gnuplot -e "data='results/order'; out='order_reduction'; parameter='lambda'" order_vs_stiffness.gp
 # Reads orders.csv. Options: block or scene, parameter (the setting that is the stiffness), parameter_default,
 # stages_shown.
