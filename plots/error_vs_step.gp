@@ -55,7 +55,7 @@ do for [i = 1 : n] { do for [k = 1 : words(methods)] {
   Count[m] = N_sum
   if (has_fits) { stats fits using (fit_row(f, w) ? (Fitted[m] = column("order"), Slope[m] = column("theory"), \
     Lower[m] = column("h_min"), Upper[m] = column("h_max"), 0) : 0) nooutput }
-  if (Fitted[m] == Fitted[m]) {
+  if (Fitted[m] == Fitted[m] && Slope[m] == Slope[m]) {  # without a theory there is no slope to draw
     undefine L_*
     stats file using (row(f, w) && column("h") >= 0.999 * Lower[m] && column("h") <= 1.001 * Upper[m] \
       ? log10(error(0)) - Slope[m] * log10(column("h")) : NaN) name "L" nooutput
