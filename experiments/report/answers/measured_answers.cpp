@@ -211,8 +211,9 @@ std::string energySentence(const Table& energy) {
   }
   return texts.empty()
              ? ""
-             : fmt::format("The largest relative error of the energy, with the method that keeps it best: {}.",
-                           fmt::join(texts, "; "));
+             : fmt::format(
+                   "The largest error of the energy, in the unit of the scene, with the method that keeps it best: {}.",
+                   fmt::join(texts, "; "));
 }
 
 std::string stepsSentence(const Table& runs) {

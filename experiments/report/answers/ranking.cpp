@@ -92,14 +92,16 @@ std::map<std::string, int> wins(const Costs& costs) {
 
 std::string comparison(double factor, const Ranked& best, const Ranked& other, int problems) {
   if (other.solver.empty()) return "no other reaches this error";
-  std::string text = std::isnan(factor) ? fmt::format("too few problems in common with `{}` for a ratio", other.solver)
-                     : factor < 1 / kAsFast
-                         ? fmt::format("{} times as slow as `{}`", factorText(1 / factor), other.solver)
-                     : factor < kAsFast ? fmt::format("as fast as `{}`", other.solver)
-                                        : fmt::format("{} times as fast as `{}`", factorText(factor), other.solver);
+  std::string text =
+      std::isnan(factor)
+          ? fmt::format("no ratio: too few problems in common with the best other library's solver, `{}`", other.solver)
+      : factor < 1 / kAsFast ? fmt::format("{} times as slow as `{}`", factorText(1 / factor), other.solver)
+      : factor < kAsFast     ? fmt::format("as fast as `{}`", other.solver)
+                             : fmt::format("{} times as fast as `{}`", factorText(factor), other.solver);
   if (other.solved < best.solved) {
     text += fmt::format(", which solves {} of {}", other.solved, problems);
-    if (other.given < problems) text += fmt::format(" and was not asked for {}", problems - other.given);
+    if (other.given < problems)
+      text += fmt::format(" and was not asked for so small an error in {}", problems - other.given);
   }
   return text;
 }

@@ -53,9 +53,10 @@ TEST(Ranking, ComparesTheSecondBest) {
   EXPECT_EQ(comparison(2, best, next, 4), "2.0 times as fast as `next`");
   EXPECT_EQ(comparison(1.05, best, next, 4), "as fast as `next`");
   EXPECT_EQ(comparison(0.5, best, partial, 4),
-            "2.0 times as slow as `partial`, which solves 2 of 4 and was not asked for 1");
+            "2.0 times as slow as `partial`, which solves 2 of 4 and was not asked for so small an error in 1");
   EXPECT_EQ(comparison(kNone, best, partial, 4),
-            "too few problems in common with `partial` for a ratio, which solves 2 of 4 and was not asked for 1");
+            "no ratio: too few problems in common with the best other library's solver, `partial`, which solves 2 of 4 "
+            "and was not asked for so small an error in 1");
   EXPECT_EQ(comparison(1, best, {}, 4), "no other reaches this error");
 }
 
@@ -135,7 +136,8 @@ TEST(SolverAnswer, CountsWhoWasAskedForTheError) {
   ASSERT_EQ(answer.table.rows.size(), 1u) << "no row for 1e-11";
   EXPECT_EQ(cell(answer.table, 0, "solver"), "variable");
   EXPECT_NEAR(numberAt(answer.table, answer.table.rows[0], "over_library"), 3, 1e-12);
-  EXPECT_TRUE(containsAll(answer.sentences.at(0), {"which solves 1 of 2 and was not asked for 1"}));
+  EXPECT_TRUE(
+      containsAll(answer.sentences.at(0), {"which solves 1 of 2 and was not asked for so small an error in 1"}));
 }
 
 // The other side: another library is faster.

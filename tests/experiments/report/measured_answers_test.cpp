@@ -95,8 +95,8 @@ TEST(StudySentences, EnergyIsComparedByTheMethodThatKeepsItBest) {
                       {"kepler", "gauss_5", "compensated", "2e-12"},
                       {"pendulum", "gauss_4", "plain", "1e-12"}}};
   EXPECT_EQ(energySentence(energy),
-            "The largest relative error of the energy, with the method that keeps it best: 6e-16 with `compensated` "
-            "and 2e-13 with `plain` on kepler (`gauss_6`); 1e-12 with `plain` on pendulum (`gauss_4`).");
+            "The largest error of the energy, in the unit of the scene, with the method that keeps it best: 6e-16 with "
+            "`compensated` and 2e-13 with `plain` on kepler (`gauss_6`); 1e-12 with `plain` on pendulum (`gauss_4`).");
 }
 
 TEST(StudySentences, StepsCountTriesOfSuccessfulRuns) {
