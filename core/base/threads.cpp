@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,8 +31,12 @@ void pause() {
 /// no helper has taken, and waits for taken ones only.
 class Team {
  public:
-  explicit Team(int threads) {
-    for (int i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+  /// With fewer threads where the system gives no more: the caller takes their turns.
+  explicit Team(int threads) : threads_(threads) {
+    try {
+      for (int i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+    } catch (const std::system_error&) {
+    }
   }
   ~Team() {
     stops_ = true;
@@ -42,7 +47,7 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  int threads() const { return static_cast<int>(helpers_.size()) + 1; }
+  int threads() const { return threads_; }  ///< that were wanted
 
   void loop(std::size_t n, void (*turn)(void*, std::size_t), void* context) {
     turn_ = turn, context_ = context, n_ = n;
@@ -83,6 +88,7 @@ class Team {
     }
   }
 
+  int threads_;
   // Of the present loop.
   void (*turn_)(void*, std::size_t) = nullptr;
   void* context_ = nullptr;

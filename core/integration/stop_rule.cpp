@@ -58,7 +58,8 @@ StopRule<Real>::StopRule(const System<Real>& system, const IntegratorOptions& op
 
 template <class Real>
 void StopRule<Real>::switched(Index i) {
-  if (waits_for_[static_cast<std::size_t>(i)]) ++come_;
+  // -1: a step has asked for it.
+  if (i >= 0 && waits_for_[static_cast<std::size_t>(i)]) ++come_;
 }
 
 template <class Real>

@@ -43,7 +43,7 @@ State<Real> reversed(State<Real> state, Index first = 0, Index count = 0) {
 template <class Real>
 class ReversedSystem final : public System<Real> {
  public:
-  /// Shares ownership of `inner`. Throws Misuse for one with switches or a discrete state.
+  /// Shares ownership of `inner`. Throws Misuse for one with switches, a discrete state or steps that ask for a mode.
   explicit ReversedSystem(std::shared_ptr<const System<Real>> inner)
       : inner_(std::move(inner)),
         sizes_(inner_->sizes()),
@@ -51,6 +51,11 @@ class ReversedSystem final : public System<Real> {
         times_(inner_->times()) {
     for (Real& t : times_) t = opposite(t);
     std::reverse(times_.begin(), times_.end());
+    if (inner_->completesSteps()) {
+      throw Misuse(
+          "t_end lies before the start, and steps of the system ask for modes (completeStep): the mode before "
+          "does not follow from the state after it");
+    }
     if (sizes_.switches == 0 && sizes_.discrete == 0) return;
     throw Misuse("t_end lies before the start, and the system has " + std::to_string(sizes_.switches) +
                  " switches and a discrete state of " + std::to_string(sizes_.discrete) +

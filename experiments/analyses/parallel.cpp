@@ -117,6 +117,10 @@ Table parallelTable(const Study& study, const RunFile& runs, const std::vector<i
       row.push_back(std::to_string(makeSetup<double>(*spec).system->sizes().n()));
       ParallelMeasurement measurement(*spec, processors);
       measurement.measure();
+      if (interruptFlag()) {
+        progress.skipped(kind);
+        continue;
+      }
       measurement.appendRows(row, table);
       progress.finished(kind, wallSeconds() - start);
     }

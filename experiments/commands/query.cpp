@@ -15,6 +15,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/commands/commands.h"
 #include "experiments/study/study_reader.h"
+#include "experiments/tables/csv_module.h"
 #include "experiments/tables/database.h"
 #include "experiments/tables/new_file.h"
 #include "experiments/tables/table.h"
@@ -79,10 +80,19 @@ nlohmann::ordered_json cellJson(const Query& query, int column) {
   return nullptr;
 }
 
+// A JSON object has one value for each name.
+void requireDifferent(std::vector<std::string> columns) {
+  std::sort(columns.begin(), columns.end());
+  const auto twice = std::adjacent_find(columns.begin(), columns.end());
+  if (twice == columns.end()) return;
+  throw Misuse(fmt::format("--json: two columns have the name '{}'; give one of them another with `as`", *twice));
+}
+
 void printRows(Query& query, bool as_json, std::ostream& out) {
   const auto columns = query.columns();
   const auto count = static_cast<int>(columns.size());
   if (!as_json) out << csvLine(columns) << '\n';
+  if (as_json) requireDifferent(columns);
   while (query.next()) {
     TableRow row;
     nlohmann::ordered_json object;
@@ -105,7 +115,7 @@ bool isOwnDatabase(const std::filesystem::path& file) {
   in.read(header.data(), header.size());
   std::uint32_t id = 0;
   for (std::size_t i = 0; i < sizeof id; ++i) id = id << 8 | static_cast<unsigned char>(header[kIdAt + i]);
-  return in && std::string_view(header.data()) == "SQLite format 3" && id == kApplicationId;
+  return in && std::string_view(header.data(), 16) == std::string_view("SQLite format 3\0", 16) && id == kApplicationId;
 }
 
 void writeDatabase(const std::vector<std::filesystem::path>& tables, const std::filesystem::path& file) {
@@ -116,7 +126,7 @@ void writeDatabase(const std::vector<std::filesystem::path>& tables, const std::
   attach.next();
   database.run(fmt::format("pragma exported.journal_mode = off; pragma exported.application_id = {}", kApplicationId));
   for (const auto& name : names) {
-    database.run(fmt::format(R"(create table exported."{0}" as select * from main."{0}")", name));
+    database.run(fmt::format("create table exported.{0} as select * from main.{0}", quotedName(name)));
   }
 }
 
@@ -133,7 +143,8 @@ int queryCommand(const TableOptions& options, Streams streams) {
     }
   };
   auto asked = query();
-  if (!asked.onlyReads()) throw Misuse(fmt::format("'{}' would change tables: only select is allowed", options.sql));
+  if (!asked.onlyReads() || asked.columns().empty())
+    throw Misuse(fmt::format("'{}' would change tables: only select is allowed", options.sql));
   printRows(asked, options.json, streams.out);
   return 0;
 }

@@ -206,8 +206,7 @@ std::string failureText(const RunRecord& record) {
 
 // Where threads do not pay, says so and takes one.
 void takeOneThread(RunSpec& spec, std::ostream& err) {
-  if (spec.options.threads == 1) return;
-  const std::string text = oneThreadText(spec, sceneOf<double>(spec).sizes().n());
+  const std::string text = oneThreadText(spec);
   if (text.empty()) return;
   fmt::print(err, "{}\n", text);
   spec.options.threads = 1;

@@ -157,8 +157,8 @@ int solveSweep(const Sweep& sweep, Streams streams) {
     const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
     ++made;
     if (!record.succeeded()) ++failed;
-    const std::string one_thread = oneThreadText(spec, record.u.size() + record.x.size() + record.z.size());
-    if (record.succeeded() && !one_thread.empty() && said.insert(one_thread).second) {
+    const std::string one_thread = record.succeeded() ? oneThreadText(spec) : "";
+    if (!one_thread.empty() && said.insert(one_thread).second) {
       fmt::print(streams.err, "{}\n", one_thread);
     }
     if (first.json) {

@@ -86,6 +86,11 @@ std::string oneThreadText(const RunSpec& spec, Index unknowns) {
                      unknowns, kThreadsFrom);
 }
 
+std::string oneThreadText(const RunSpec& spec) {
+  if (spec.options.threads == 1 || findPeer(spec.method)) return {};
+  return oneThreadText(spec, makeSetup<double>(spec).system->sizes().n());
+}
+
 Vec<double> systemScale(const Vec<double>& scene, const Sizes& system) {
   Vec<double> all = Vec<double>::Ones(system.components());
   const Index known = std::min(scene.size(), all.size());

@@ -34,6 +34,8 @@ struct Setup {
 /// That an integration of so many unknowns takes one thread, and why; empty if the spec asks for one, or if it takes as
 /// many as the spec asks for.
 std::string oneThreadText(const RunSpec& spec, Index unknowns);
+/// The same for the system of the spec, which its formulation makes; empty for an integrator of another library.
+std::string oneThreadText(const RunSpec& spec);
 
 /// The setup of a resolved spec and its scene: makes the system and the method's coefficients. Throws Misuse as
 /// makeSetup.

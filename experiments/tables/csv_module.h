@@ -10,6 +10,9 @@ struct sqlite3;
 
 namespace irk {
 
+/// A name of a table or column as SQL has it, whatever its characters.
+std::string quotedName(const std::string& name);
+
 /// See Database::addFile. What reading the file throws is kept in `thrown`, and the query fails. Returns a status of
 /// SQLite.
 int addCsvModule(sqlite3* database, const std::string& name, const std::filesystem::path& file,

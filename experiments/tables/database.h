@@ -28,7 +28,8 @@ class Database {
  public:
   Database();
 
-  /// Makes the table in a file known by `name`; every query that names it reads the file once for each use. A cell that
+  /// Makes the table in a file known by `name`; every query that names it reads the file for each use, and in a
+  /// join once for each row of the other table (unless it is `materialized`). A cell that
   /// is a number is a number, `nan` is null, any other cell is a text, and so are all cells of columns that hold hashes
   /// or lists (kTextColumns). `rowid` is where a row begins: TableFile::seek goes there. Queries throw what readTable
   /// throws.

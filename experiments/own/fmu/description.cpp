@@ -276,17 +276,17 @@ void readBuildDescription(const std::filesystem::path& sources, FmuDescription& 
 
 std::vector<int> velocitiesOf(const FmuDescription& fmu) {
   const std::size_t n = fmu.states.size();
+  std::map<std::pair<unsigned, std::size_t>, std::size_t> place;  // of a state, by its reference and element
+  for (std::size_t v = 0; v < n; ++v) place.try_emplace({fmu.states[v].reference, fmu.states[v].element}, v);
   std::vector<int> velocity(n, -1);
   std::vector<bool> taken(n, false);
   for (std::size_t q = 0; q < n; ++q) {
-    for (std::size_t v = 0; v < n && !taken[q]; ++v) {
-      if (v == q || taken[v] || fmu.derivatives[q] != fmu.states[v].reference ||
-          fmu.states[q].element != fmu.states[v].element) {
-        continue;
-      }
-      velocity[q] = static_cast<int>(v);
-      taken[q] = taken[v] = true;
-    }
+    const auto found = place.find({fmu.derivatives[q], fmu.states[q].element});
+    if (found == place.end() || taken[q]) continue;
+    const std::size_t v = found->second;
+    if (v == q || taken[v]) continue;
+    velocity[q] = static_cast<int>(v);
+    taken[q] = taken[v] = true;
   }
   return velocity;
 }

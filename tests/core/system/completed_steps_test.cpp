@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/system/reversed.h"
+#include "irk/misuse.h"
 #include "tests/core/support.h"
 
 namespace irk::test {
@@ -14,12 +16,22 @@ namespace {
 /// An angle phi with phi' = 1 by the coordinate s = tan((phi - c pi) / 2) of the chart c: s' = (1 + s^2) / 2, which is
 /// infinite where phi is c pi + pi. A step that ends with |s| > 1 asks for the next chart. x_1 counts by itself.
 struct Charts {
-  Sizes sizes() const { return {.nx = 2, .discrete = 1}; }
+  bool has_switch = false;
+  Sizes sizes() const { return {.nx = 2, .discrete = has_switch ? 2 : 1, .switches = has_switch ? 1 : 0}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.x[0] = (1.0 + p.x[0] * p.x[0]) / 2.0 - p.k[0];
     r.x[1] = p.d[0] - p.k[1];
   }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    if (has_switch) g[0] = p.d[1] > T(0.0) ? T(-1.0) : T(p.t - 9.0);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[1] = T(1.0);
+  }
+  std::string switchName(Index) const { return "nine"; }
   template <class T>
   bool completeStep(const Point<T>& p, T*, T*, T* x, T* d) const {
     if (!(p.x[0] > T(1.0))) return false;
@@ -61,6 +73,37 @@ TEST(CompletedSteps, MayAskForAnotherMode) {
     EXPECT_EQ(seen.solution.detail, "") << "a coordinate that jumps below zero is no amount";
     EXPECT_EQ(seen.solution.counters.located_events, 0);
     EXPECT_NEAR(seen.solution.state.x[0], std::tan((10 - 3 * std::numbers::pi) / 2), 1e-8) << idOf(formulation);
+  }
+}
+
+// They are no switches that a run can stop at.
+TEST(CompletedSteps, AreNotCountedAsTheSwitchOfStopAt) {
+  IntegratorOptions options;
+  options.stop_at = "nine";
+  Integrator<double> integrator(
+      makeSystem<double>(Charts{true}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
+      makeTableau<double>("radau_iia_3"), options);
+  const auto end = integrator.integrate(State<double>(Charts{true}.sizes()), 10);
+  ASSERT_EQ(end.outcome, Outcome::kSuccess) << end.detail;
+  EXPECT_NEAR(end.state.t, 9, 1e-8);
+  EXPECT_EQ(end.state.d[0], 3);
+}
+
+struct WithoutMode {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 1.0 - p.k[0];
+  }
+  bool completesSteps() const { return true; }
+};
+
+TEST(CompletedSteps, AreRefusedBackwardInTime) {
+  try {
+    const ReversedSystem<double> system(makeSystem<double>(WithoutMode{}));
+    FAIL();
+  } catch (const Misuse& misuse) {
+    EXPECT_NE(std::string(misuse.what()).find("completeStep"), std::string::npos) << misuse.what();
   }
 }
 

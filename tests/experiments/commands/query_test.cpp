@@ -71,6 +71,15 @@ TEST_F(Queries, PrintBytesThatAreNoTextAsTheyAre) {
   EXPECT_EQ(query("select method from orders", {"--json"}).out, "{\"method\":\"gau\xef\xbf\xbd\"}\n");
 }
 
+TEST_F(Queries, ColumnsOfOneNameAreNoJsonObject) {
+  const std::string both = "select * from runs join orders on runs.method = orders.method";
+  EXPECT_TRUE(query(both).out.starts_with("key,method,rtol,error,detail,order,method,value\n"));
+  const Ended ended = query(both, {"--json"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_TRUE(containsAll(ended.err, {"two columns have the name 'method'", "`as`"}));
+}
+
 TEST_F(Queries, WhatIsNoQuestionIsRefused) {
   struct Wrong {
     const char* sql;
@@ -81,6 +90,7 @@ TEST_F(Queries, WhatIsNoQuestionIsRefused) {
         Wrong{"select method from rnus", {"no such table: rnus", "the tables are orders, runs"}},
         Wrong{"select metod from runs", {"no such column: metod", "character 8"}},
         Wrong{"create table own (a)", {"create table own (a)", "only select"}},
+        Wrong{"attach 'own.sqlite' as own", {"only select"}}, Wrong{"begin", {"only select"}},
         Wrong{"select 1; select 2", {"one statement"}}, Wrong{"/* nothing */", {"one statement"}}}) {
     const Ended ended = query(sql);
     EXPECT_EQ(ended.status, 2) << sql;
@@ -99,6 +109,18 @@ TEST_F(Queries, DamagedTablesAreNamed) {
   EXPECT_TRUE(containsAll(ended.err, {"runs.csv:3", "1 cells", "2"}));
   write("orders.csv", "");
   EXPECT_TRUE(containsAll(query("select * from orders").err, {"orders.csv", "no line with column names"}));
+}
+
+TEST_F(Queries, ExportTakesTablesOfAnyName) {
+  write("a\"b.csv", "method\ngauss_2\n");
+  ASSERT_EQ(exported().status, 0);
+  Database database;
+  Query attach(database, "attach ?1 as mine");
+  attach.bind(1, file("mine.sqlite"));
+  EXPECT_FALSE(attach.next());
+  Query rows(database, "select method from mine.\"a\"\"b\"");
+  ASSERT_TRUE(rows.next());
+  EXPECT_EQ(rows.text(0), "gauss_2");
 }
 
 TEST_F(Queries, ExportHoldsAllTables) {
@@ -126,11 +148,12 @@ TEST_F(Queries, ExportHoldsAllTables) {
 }
 
 TEST_F(Queries, ExportKeepsOtherFilesAndLeavesNoParts) {
-  std::ofstream(file("mine.sqlite")) << "notes";
+  const std::string notes(200, 'n');  // longer than the header of a database
+  std::ofstream(file("mine.sqlite")) << notes;
   const Ended refused = exported();
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(containsAll(refused.err, {"mine.sqlite", "no database that irk export has written"}));
-  EXPECT_EQ(contentOf(file("mine.sqlite")), "notes");
+  EXPECT_EQ(contentOf(file("mine.sqlite")), notes);
   std::filesystem::remove(file("mine.sqlite"));
   ASSERT_EQ(exported().status, 0);
   const std::string before = contentOf(file("mine.sqlite"));
