@@ -296,9 +296,8 @@ int paperCommand(const RunOptions& options, Streams streams) {
   const StudiesProgress progress = paperProgress(options.variant);
   const double start = wallSeconds();
   for (std::size_t i = 0; i < std::size(kPaperStudies); ++i) {
-    const auto id = kPaperStudies[i].id;
     fmt::print(streams.err, "paper: {}\n", progress.line(i, wallSeconds() - start));
-    const Study study = loadStudy(id, options.variant);
+    const Study study = loadStudy(kPaperStudies[i].id, options.variant);
     folders.push_back(studyFolder(study, options.runner));
     const int status = runOne(study, {}, options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;

@@ -47,9 +47,9 @@ class Starts {
   std::map<std::pair<std::string, Settings>, double> starts_;
 };
 
-/// Runs that differ in t_end only: one of them, and the keys of all by their ends.
+/// Runs that differ in t_end only: their start, and the keys of all by their ends.
 struct Ends {
-  const RunSpec* one = nullptr;
+  double start = 0;
   std::map<double, std::uint64_t> keys;
 };
 
@@ -58,24 +58,23 @@ struct Ends {
 std::unordered_set<std::uint64_t> earlierEnds(const Study& study) {
   if (differentEnds(study) < kEndsOverTime) return {};
   std::map<std::uint64_t, Ends> all;
+  Starts starts;
   for (const Series& series : study.series) {
     for (const RunSpec& spec : series.runs) {
       if (std::isnan(spec.t_end)) continue;  // the scene's own: one end
       RunSpec endless = spec;
       endless.t_end = 1;
       Ends& ends = all[store::keyNumber(specKey(endless))];
-      ends.one = &spec;
+      ends.start = starts.of(spec);  // `spec` is gone with its series
       ends.keys[spec.t_end] = store::keyNumber(specKey(spec));
     }
   }
   std::unordered_set<std::uint64_t> earlier;
-  Starts starts;
   for (const auto& [name, ends] : all) {
     if (ends.keys.size() < kEndsOverTime) continue;
-    const double start = starts.of(*ends.one);
     const auto first = ends.keys.begin(), last = std::prev(ends.keys.end());
     for (auto end = first; end != ends.keys.end(); ++end) {
-      const auto farthest = end->first < start ? first : last;
+      const auto farthest = end->first < ends.start ? first : last;
       if (end != farthest) earlier.insert(end->second);
     }
   }
