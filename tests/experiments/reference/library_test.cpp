@@ -211,9 +211,8 @@ TEST_F(ReferenceLibraryTest, OnlyATerminalSeesHowFarItIs) {
   std::ostringstream out;
   EXPECT_EQ(runProgram(arguments, {out, std::cerr}), 0);
   const std::string seen = terminal.text();
-  const std::string line = "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): in 50 digits, 0:00 so far";
-  EXPECT_TRUE(
-      containsAll(seen, {line, "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): 3", " digits, "}));
+  const std::string line = "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): ";
+  EXPECT_TRUE(containsAll(seen, {line + "in 50 digits, 0:0", " so far", line + "3", " digits, "}));
 }
 
 TEST_F(ReferenceLibraryTest, SolveReportsErrorsThatAreNotMeasurable) {
