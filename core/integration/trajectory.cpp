@@ -79,6 +79,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   start_.forgetPattern();
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
+  determined_ = report.determined;
   if (!switches_.none() && report.determined) attempt_->restart();
   if (positions_) positions_->begin(state_);
   if (controller_) amounts_.begin(state_, norm_);
@@ -136,7 +137,7 @@ double Trajectory<Real>::shorten(double h) {
 template <class Real>
 void Trajectory<Real>::solveAlgebraicUnknowns() {
   const Sizes scene = constrainedIn(system_).sizes();
-  if (scene.nz == scene.constraints) return;
+  if (scene.nz == scene.constraints || !determined_) return;
   next_ = state_;
   const StartReport report = start_.apply(next_, StartCheck::kNone);
   if (report.outcome == Outcome::kSuccess && report.determined) state_.w.tail(state_.z().size()) = next_.z();
@@ -247,6 +248,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     }
     const StartReport report = start_.apply(state_, StartCheck::kNone);
     start_detail_ = report.detail;
+    determined_ = report.determined;
     if (report.outcome != Outcome::kSuccess) return report.outcome;
     if (positions_) positions_->restart(state_);
     amounts_.restart(state_);

@@ -117,6 +117,7 @@ class Trajectory {
   double round_off_ = 0;                  // of Newton's method; the largest of the accepted steps, in tolerances
   Index blamed_ = -1;                     // the switching function that caused a failure
   const char* last_rejection_ = nullptr;  // cause of the last rejection; null: there was none
+  bool determined_ = false;               // at the last start (a, k, z) followed from (u, v, x)
   int failures_ = 0;                      // since the last accepted step
   bool solved_ = false;                   // a step of this integration, with whose error a message may name a component
 };
