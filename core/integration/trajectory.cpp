@@ -198,7 +198,13 @@ bool Trajectory<Real>::passesSingularPosition() {
   return constraintViolation(system_, next_, norm_.weights(), kCoarsestDrift / norm_.tolerance()).empty();
 }
 
-// A step may itself ask for another mode.
+template <class Real>
+Outcome Trajectory<Real>::passTime(Index i) {
+  system_.onTime(i, state_);
+  system_.jumpAtTime(i, state_);
+  return restartAtSwitch();
+}
+
 template <class Real>
 Outcome Trajectory<Real>::completeStep() {
   if (!system_.completesSteps() || !system_.completeStep(state_)) return Outcome::kSuccess;

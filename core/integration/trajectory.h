@@ -53,11 +53,7 @@ class Trajectory {
   const State<Real>& state() const { return state_; }
   const State<Real>& next() const { return next_; }
   /// Passes time i of the system's `times`: sets the mode and the state after it and restarts.
-  [[nodiscard]] Outcome passTime(Index i) {
-    system_.onTime(i, state_);
-    system_.jumpAtTime(i, state_);
-    return restartAtSwitch();
-  }
+  [[nodiscard]] Outcome passTime(Index i);
   /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
   void endAt(const Real& t_end) { state_.t = t_end; }
 
@@ -77,6 +73,7 @@ class Trajectory {
   bool satisfyConstraints();
   bool passesSingularPosition();
   Outcome settle();
+  /// The end of a step that no switch has ended: carries out the change of mode that the step itself asks for, if any.
   Outcome completeStep();
   Outcome restartAtSwitch();
   void takeOver(const CommittedStep<Real>& step);

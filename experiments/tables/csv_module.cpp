@@ -90,8 +90,8 @@ int csvDisconnect(sqlite3_vtab* table) {
   return SQLITE_OK;
 }
 
-// All rows, in their order. A join of two files that SQLite's loops read in this way would read one of them again for
-// each row of the other: of the two orders the planner should take the one whose inner file is the smaller.
+// A file is always read as a whole, row by row. In a join, SQLite reads one file again for each row of the other; the
+// sizes told here let it choose the smaller one for that.
 int csvBestIndex(sqlite3_vtab* table, sqlite3_index_info* plan) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(static_cast<CsvTable*>(table)->source->file, unknown);
@@ -126,8 +126,9 @@ int csvNext(sqlite3_vtab_cursor* cursor) {
 
 int csvEof(sqlite3_vtab_cursor* cursor) { return static_cast<CsvCursor*>(cursor)->row ? 0 : 1; }
 
+// Whether the cell is such a number and nothing else.
 template <class Number>
-bool isWhole(std::string_view cell, Number& number) {
+bool isNumber(std::string_view cell, Number& number) {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
   return error == std::errc() && end == cell.data() + cell.size();
 }
@@ -138,9 +139,9 @@ int csvColumn(sqlite3_vtab_cursor* cursor, sqlite3_context* result, int column) 
   std::int64_t integer = 0;
   double real = 0;
   const bool is_text = static_cast<CsvTable*>(cursor->pVtab)->is_text[at];
-  if (!is_text && isWhole(cell, integer)) {
+  if (!is_text && isNumber(cell, integer)) {
     sqlite3_result_int64(result, integer);
-  } else if (!is_text && isWhole(cell, real)) {
+  } else if (!is_text && isNumber(cell, real)) {
     sqlite3_result_double(result, real);  // NaN becomes null
   } else {
     sqlite3_result_text64(result, cell.data(), cell.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
