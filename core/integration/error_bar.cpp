@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/constants.h"
+#include "core/integration/component_name.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/along_rates.h"
 #include "irk/multiprecision.h"
@@ -69,9 +70,9 @@ struct SwitchErrors {
 template <class Real>
 class SmallComponents {
  public:
-  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale)
-      : absolute_(tolerances.norm == NormKind::kAbsolute), scale_(scale) {
-    if (scale.size() == 0) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
+  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale) : scale_(scale) {
+    const bool ones = scale.size() == 0 || tolerances.norm == NormKind::kAbsolute;
+    if (ones) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
     of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
     forEach(start, [&](Component& c, Index i, double y, double) {
       c.tolerance = tolerances.of(scale_[i], 0);
@@ -89,15 +90,22 @@ class SmallComponents {
     const double h = std::abs(step.h);
     forEach(step.state, [&](Component& c, Index, double y, double rate) {
       if (c.first == 0) c.first = y;
-      if (!c.small && !absolute_ && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
+      if (!c.small && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
       c.begins_below = y < c.tolerance;
     });
   }
   // Whether this integration has found a further one.
   bool found() const { return found_; }
 
-  // The scale of u, v and x that leaves them to rtol; empty if there are none. One that begins with zero has that of
-  // its first value. Without z, which the formulation of an integration may not have.
+  // The components that were found small: "x[2]", "x[2] and 3 more".
+  std::string names(const Sizes& sizes) const {
+    const auto isSmall = [](const Component& c) { return c.small; };
+    const auto first = std::find_if(of_.begin(), of_.end(), isSmall);
+    const auto count = std::count_if(of_.begin(), of_.end(), isSmall);
+    return componentName(sizes, first - of_.begin()) + (count > 1 ? " and " + std::to_string(count - 1) + " more" : "");
+  }
+  // The scale of u, v and x that controls them relative to their size; empty if there are none. One that begins with
+  // zero has that of its first value. Without z, which the formulation of an integration may not have.
   Vec<double> relativeScale() const {
     constexpr double nothing = 1e-100;  // a decay is followed down to here
     Vec<double> result;
@@ -130,7 +138,6 @@ class SmallComponents {
     for (Index i = 0; i < s.x.size(); ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
   }
 
-  bool absolute_;  // the norm, in which no component can be left to rtol
   bool found_ = false;
   Vec<double> scale_;
   std::vector<Component> of_;
@@ -151,7 +158,6 @@ IntegratorOptions independentOptions(const IntegratorOptions& first) {
     second.tolerances.atol = stricter(first.tolerances.atol);
     second.step.h_max = first.step.h_max;
   }
-  second.derivatives = first.derivatives;
   second.storage = first.storage;
   second.threads = first.threads;
   second.step.max_steps = first.step.max_steps;
@@ -210,6 +216,12 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   return bar;
 }
 
+template <class Real>
+Sizes sizesOf(const State<Real>& s) {
+  const Index nu = s.u.size(), nx = s.x.size();
+  return {.nu = nu, .nx = nx, .nz = s.w.size() - nu - nx, .discrete = s.d.size()};
+}
+
 // Weighs the errors of an integrator by another scale as long as it lives, also if the integration throws.
 template <class Real>
 class OtherWeights {
@@ -226,7 +238,7 @@ class OtherWeights {
 };
 
 // The same with all components under control that are found small on the way: the integration begins anew with each of
-// them. If that fails or takes too many steps, they are left as they are.
+// them. If that fails or takes too many steps, they are left as they are, and the bar's remark says so.
 template <class Real>
 ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solution<Real>& other) {
   std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
@@ -250,7 +262,12 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
     }();
     if (small.found()) continue;
     if (bar.known() || relative_scale.size() == 0) return bar;
-    return barBy(second, of, of.monitor, other);
+    const std::string ended = left < 0 ? "takes too many steps" : "ends as " + std::string(name(other.outcome));
+    ErrorBar plain = barBy(second, of, of.monitor, other);
+    if (!plain.known()) return plain;
+    plain.remark = "the bar may lack what comes of " + small.names(sizesOf(of.start)) +
+                   ", below the absolute tolerance on the way: an integration that controls it there " + ended;
+    return plain;
   }
 }
 
@@ -260,8 +277,7 @@ template <class Real>
 ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, const State<Real>& start,
                          const Tolerances& tolerances, const Vec<double>& scale, Solution<Real>& second_result,
                          const Monitor<Real>& monitor, const std::optional<Real>& t_end) {
-  const Index nu = start.u.size(), nx = start.x.size();
-  const Sizes sizes{.nu = nu, .nx = nx, .nz = start.w.size() - nu - nx, .discrete = start.d.size()};
+  const Sizes sizes = sizesOf(start);
   requireState("the result", result, sizes);
   requireScale(scale, sizes);
   IntegratorOptions checked;

@@ -17,7 +17,6 @@
 #include "core/integration/stop_rule.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
-#include "core/system/component_scale.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 #include "irk/system_check.h"
@@ -98,13 +97,11 @@ class Integrator<Real>::Run {
 
   void weighErrorsBy(const Vec<double>& scale) {
     const InUse use(in_use_, "Integrator::weighErrorsBy");
-    Vec<double> all = componentScale(system_->sizes(), scale_);
-    if (scale.size() > all.size() || !(scale.array() > 0).all() || !scale.allFinite()) {
-      throw Misuse("Integrator::weighErrorsBy: the scale needs at most " + std::to_string(all.size()) +
-                   " numbers, all > 0");
+    const Index most = system_->sizes().components();
+    if (scale.size() > most || !(scale.array() > 0).all() || !scale.allFinite()) {
+      throw Misuse("Integrator::weighErrorsBy: the scale needs at most " + std::to_string(most) + " numbers, all > 0");
     }
-    all.head(scale.size()) = scale;
-    trajectory_.weighErrorsBy(all);
+    trajectory_.weighErrorsBy(scale);
     if (backward_) backward_->weighErrorsBy(scale);
     error_scale_ = scale;
   }

@@ -64,14 +64,26 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
       powers_(system.errorPowers()),
       index3_(powers_.isIndex3()),
       tolerances_(tolerances),
-      scale_(componentScale(sizes_, scale)),
-      weight_(Vec<double>::Ones(sizes_.components())) {}
+      given_scale_(componentScale(sizes_, scale)),
+      weight_(Vec<double>::Ones(sizes_.components())) {
+  if (tolerances.norm == NormKind::kAbsolute) given_scale_.setOnes();
+  scale_ = given_scale_;
+}
+
+template <class Real>
+void ErrorNorm<Real>::setScale(const Vec<double>& first) {
+  scale_ = given_scale_;
+  scale_.head(first.size()) = first;
+}
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {
+  const bool absolute = tolerances_.norm == NormKind::kAbsolute;
   const auto weigh = [&](Index offset, const auto& part) {
     for (Index i = 0; i < part.size(); ++i) {
-      weight_[offset + i] = tolerances_.of(scale_[offset + i], static_cast<double>(part[i]));
+      const double scale = scale_[offset + i], value = static_cast<double>(part[i]);
+      weight_[offset + i] =
+          absolute ? tolerances_.atol * std::min(1.0, scale + std::abs(value)) : tolerances_.of(scale, value);
     }
   };
   weigh(0, y.u);

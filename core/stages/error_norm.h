@@ -22,10 +22,11 @@ class ErrorNorm {
   /// determine them well, if they are computed anew at the end: their errors then do not enter the result.
   void leaveMultipliersOut() { leaves_multipliers_out_ = true; }
 
-  /// Another scale, of as many components, from the next update on.
-  void setScale(const Vec<double>& scale) { scale_ = scale; }
+  /// Another scale of the first components, from the next update on; the others have that of the constructor.
+  void setScale(const Vec<double>& first);
 
-  /// Sets the weights from the magnitudes of `y`; call it before each step. In the absolute norm they are all atol.
+  /// Sets the weights from the magnitudes of `y`; call it before each step. In the absolute norm they are all atol,
+  /// or atol (scale_i + |y_i|) where that is smaller, which only a scale of setScale makes.
   void update(const State<Real>& y);
 
   /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
@@ -62,8 +63,9 @@ class ErrorNorm {
   const ErrorPowers& powers_;
   bool index3_;
   Tolerances tolerances_;
-  Vec<double> scale_;   // of u, v, x, z
-  Vec<double> weight_;  // of u, v, x, z
+  Vec<double> given_scale_;  // of u, v, x, z
+  Vec<double> scale_;        // of u, v, x, z
+  Vec<double> weight_;       // of u, v, x, z
   bool leaves_multipliers_out_ = false;
 };
 

@@ -71,7 +71,7 @@ TableRow cellsOf(const Ensemble& ensemble, std::size_t i, bool bars, const RunRe
   record.counters.forEach([&](const char*, std::int64_t count) { cells.push_back(std::to_string(count)); });
   const RunErrorBar& bar = record.error_bar;
   if (bars) cells.push_back(numberText(bar.tolerances));
-  cells.push_back(record.detail + (record.detail.empty() || bar.problem.empty() ? "" : "; ") + bar.problem);
+  cells.push_back(record.detail + (record.detail.empty() || bar.told().empty() ? "" : "; ") + bar.told());
   return cells;
 }
 

@@ -75,6 +75,7 @@ void printErrorBar(std::ostream& out, const RunErrorBar& bar) {
     fmt::print(out, "error bar unknown: {}\n", bar.problem);
   } else if (!std::isnan(bar.tolerances)) {
     fmt::print(out, "error bar {:.2g} tolerances, largest in {}\n", bar.tolerances, bar.component);
+    if (!bar.remark.empty()) fmt::print(out, "  {}\n", bar.remark);
   }
 }
 

@@ -72,7 +72,7 @@ void addErrorBar(const RunErrorBar& bar, Json& json) {
   if (!std::isnan(bar.t)) json["error_bar_t"] = bar.t;
   json["error_bar_tolerances"] = bar.tolerances;
   if (!bar.component.empty()) json["error_bar_component"] = bar.component;
-  if (!bar.problem.empty()) json["error_bar_remark"] = bar.problem;
+  if (!bar.told().empty()) json["error_bar_remark"] = bar.told();
   json["error_bar_cpu_s"] = bar.cpu_s;
 }
 

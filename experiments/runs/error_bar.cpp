@@ -89,6 +89,7 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   RunErrorBar measured;
   measured.u = bar.u, measured.v = bar.v, measured.x = bar.x, measured.z = bar.z;
   measured.problem = withNames(bar.problem, scene.names, scene.sizes(), setup.system->sizes());
+  measured.remark = withNames(bar.remark, scene.names, scene.sizes(), setup.system->sizes());
   measured.cpu_s = threadSeconds() - began;
   if (!bar.known()) return measured;
   measured.tolerances = bar.tolerances;

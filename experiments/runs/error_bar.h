@@ -20,7 +20,10 @@ struct RunErrorBar {
   std::string component;  ///< the name of the component with the largest one
   /// The largest |e| / max(|y|, scale), the measure of RunErrors, over u, v, x and over z.
   double error = tolerances, error_z = tolerances;
-  std::string problem;        ///< why the bar is unknown, in one line
+  std::string problem;  ///< why the bar is unknown, in one line
+  std::string remark;   ///< what a known bar may not show, in one line
+  /// The one of the two that there is, or nothing.
+  const std::string& told() const { return problem.empty() ? remark : problem; }
   double cpu_s = tolerances;  ///< of the second integration, without what is made before it
 };
 

@@ -52,10 +52,10 @@ bool isIn(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// How the run ended, and why it has no error bar and no error.
+// How the run ended, why it has no error bar and no error, and what the bar may not show.
 std::string detailOf(const RunRecord& record) {
   std::string all;
-  for (const std::string* text : {&record.detail, &record.error_bar.problem, &record.errors.remark}) {
+  for (const std::string* text : {&record.detail, &record.error_bar.told(), &record.errors.remark}) {
     if (!text->empty()) all += (all.empty() ? "" : "; ") + *text;
   }
   return all;

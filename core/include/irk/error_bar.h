@@ -19,13 +19,14 @@ struct ErrorBar {
   double t = std::numeric_limits<double>::quiet_NaN();
   Index worst = -1;     ///< the component of (u, v, x) with the largest of them
   std::string problem;  ///< why the bar is unknown, in one line; empty if it is known
+  std::string remark;   ///< what a known bar may not show, in one line; empty if there is nothing to say
 
   bool known() const { return problem.empty(); }
 };
 
 /// The options of the integration that measures the error of a run with the options `first`. They have a tenth of its
-/// tolerance (but at least 50 epsilon of Real), variable order with the embedded estimate, and full Jacobians; what the
-/// user says of the system and the machine stays: norm, derivatives, storage, threads, limits of steps. A run with
+/// tolerance (but at least 50 epsilon of Real), variable order with the embedded estimate, and full Jacobians of dual
+/// numbers; what the user says of the system and the machine stays: norm, storage, threads, limits of steps. A run with
 /// fixed steps is measured with the tolerance 1e-10. Independent of the run are then the method (take another family,
 /// tableaus: independentFamily), its nodes, its steps and its estimate; common are the equations, the formulation and
 /// the treatment of switches.
@@ -40,9 +41,9 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// Components that are below their absolute tolerance for whole steps of the second integration need not have a correct
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
 /// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each
-/// component that it finds small, controls it by rtol alone, and is done as usual only if that fails or takes more
-/// steps than kBarEffort over the unknowns: a fast motion far below the tolerance would need any number. In the
-/// absolute norm no component is left to rtol.
+/// component that it finds small, controls it relative to its size in either norm, and is done as usual only if that
+/// fails or takes more steps than kBarEffort over the unknowns, with a `remark`: a fast motion far below the tolerance
+/// would need any number.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
 /// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss

@@ -42,7 +42,8 @@ class Integrator {
 
   /// The magnitudes that atol is multiplied by in the following integrations, instead of those of the constructor:
   /// those of the first components of (u, v, x, z), all > 0. A component with a very small one is controlled by rtol
-  /// alone. Empty: those of the constructor again. Throws Misuse for other numbers, and during `integrate`.
+  /// alone. With NormKind::kAbsolute a component counts relative to atol (scale_i + |y_i|) where that is below atol.
+  /// Empty: those of the constructor again. Throws Misuse for other numbers, and during `integrate`.
   void weighErrorsBy(const Vec<double>& scale);
 
  private:

@@ -64,12 +64,16 @@ TEST(ErrorBarOfSmallComponents, CoversWhatComesBackFromFarBelowTheTolerance) {
     const double r0 = turn == 0 ? 1e-9 : 1;
     start.x[0] = r0;
     const double t_end = turn == 0 ? 6.4 : 2 * turn;  // r is about 1
-    for (const double tol : {1e-3, 1e-5, 1e-8}) {
-      const SmallRun run = measuredSmall(problem, start, t_end, embedded(tol));
-      expectCovered(run.bar.x, run.first.state.x, problem.exact(r0, t_end), tol);
-      // What the bar is for: without a doubt of a result that is wrong.
-      if (tol == 1e-3) {
-        EXPECT_GT(run.bar.tolerances, 100) << turn;
+    for (const NormKind norm : {NormKind::kMixed, NormKind::kAbsolute}) {
+      for (const double tol : {1e-3, 1e-5, 1e-8}) {
+        IntegratorOptions options = embedded(tol);
+        options.tolerances.norm = norm;
+        const SmallRun run = measuredSmall(problem, start, t_end, options);
+        expectCovered(run.bar.x, run.first.state.x, problem.exact(r0, t_end), tol);
+        // What the bar is for: without a doubt of a result that is wrong.
+        if (tol == 1e-3) {
+          EXPECT_GT(run.bar.tolerances, 100) << turn;
+        }
       }
     }
   }
@@ -115,6 +119,8 @@ TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
   EXPECT_LT(run.bar.tolerances, 1);
   EXPECT_GT(run.steps, 5000);
   EXPECT_LT(run.steps, 20000 + 1000);  // constants.h: 20 000 / unknowns
+  EXPECT_NE(run.bar.remark.find("x[0], below the absolute tolerance"), std::string::npos) << run.bar.remark;
+  EXPECT_NE(run.bar.remark.find("takes too many steps"), std::string::npos) << run.bar.remark;
 }
 
 /// A pendulum beside a component x = 1e-9 e^(10 t): position constraints have multipliers.

@@ -112,6 +112,21 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
   EXPECT_NEAR(absolute.difference(p, q, h, ones), std::sqrt(1 + 4 + 9 + 16 + 1.25 * 1.25) / 0.1, 1e-12);
 }
 
+// The absolute norm knows no magnitudes. A scale that is given later can only make it stricter.
+TEST(ErrorNorms, WeighAbsoluteErrorsBySmallScalesThatAreGivenLater) {
+  const auto system = makeSystem<double>(Coupled{});
+  State<double> y(Coupled{}.sizes());
+  y.u << 0.01, -0.25;
+  y.v << 4, 8;
+  y.x << 0.5;
+  ErrorNorm<double> norm(*system, {0, 0.1, NormKind::kAbsolute}, Vec<double>::Constant(6, 1e-3));
+  norm.update(y);
+  EXPECT_EQ(norm.weights(), Vec<double>::Constant(6, 0.1));
+  norm.setScale(Vec<double>{{1e-100, 1e-100, 1e-100, 1, 0.25, 10}});
+  norm.update(y);
+  EXPECT_LT((norm.weights() - Vec<double>{{0.001, 0.025, 0.1, 0.1, 0.075, 0.1}}).norm(), 1e-15);
+}
+
 TEST(ErrorNorms, WeighEveryComponentByItself) {
   const auto system = makeSystem<double>(Coupled{});
   State<double> y(Coupled{}.sizes()), zero = y;

@@ -264,7 +264,7 @@ TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {
   EXPECT_DOUBLE_EQ(second.tolerances.rtol, 1e-4);
   EXPECT_DOUBLE_EQ(second.tolerances.atol, 1e-6);
   EXPECT_EQ(second.tolerances.norm, NormKind::kAbsolute);
-  EXPECT_EQ(second.derivatives, DerivativeSource::kCentral);
+  EXPECT_EQ(second.derivatives, DerivativeSource::kAutomatic);
   EXPECT_EQ(second.step.h_max, 0.25);
   EXPECT_EQ(second.step.max_steps, 77);
   EXPECT_GT(second.step.looks, first.step.looks);
