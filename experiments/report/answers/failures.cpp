@@ -86,6 +86,18 @@ std::string endsText(const Ends& ends) {
   return fmt::format("{} of its runs fail and {} are wrong", part(ends.failed), part(ends.wrong));
 }
 
+// `most`: "most" or "least"; several solvers may be equally reliable.
+std::string reliabilityText(std::string_view most, const Ends& ends,
+                            const std::vector<std::pair<std::string, Ends>>& solvers) {
+  std::vector<std::string> equal;
+  for (const auto& [solver, others] : solvers) {
+    if (others.bad() == ends.bad()) equal.push_back(fmt::format("`{}`", solver));
+  }
+  if (equal.size() == 1) return fmt::format("The {} reliable is {}: {}.", most, equal.front(), endsText(ends));
+  return fmt::format("The {} reliable are {}: {} of the runs of each fail or are wrong.", most, listText(equal),
+                     percent(ends.bad()));
+}
+
 std::vector<std::string> sentencesOf(const EndsOf& by_solver, const EndsOf& by_scene) {
   Ends all;
   for (const auto& [solver, ends] : by_solver) {
@@ -99,10 +111,8 @@ std::vector<std::string> sentencesOf(const EndsOf& by_solver, const EndsOf& by_s
                   by_solver.size(), all.runs, all.failed, all.wrong)};
   const auto solvers = sorted(by_solver);
   if (solvers.size() > 1 && solvers.front().second.bad() > solvers.back().second.bad()) {
-    const auto& [best, fewest] = solvers.back();
-    const auto& [worst, most] = solvers.front();
-    sentences.push_back(fmt::format("The most reliable is `{}`: {}. The least reliable is `{}`: {}.", best,
-                                    endsText(fewest), worst, endsText(most)));
+    sentences.push_back(reliabilityText("most", solvers.back().second, solvers) + " " +
+                        reliabilityText("least", solvers.front().second, solvers));
   }
   constexpr std::size_t kHardest = 3;
   std::vector<std::string> hardest;

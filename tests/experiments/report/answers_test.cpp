@@ -207,6 +207,17 @@ TEST(FailureAnswer, ComparesSolversOnTheSameProblems) {
   EXPECT_EQ(answer.shown.rows.at(1).cells.back(), "too many steps (2)");
 }
 
+TEST(FailureAnswer, NamesAllThatAreEquallyReliable) {
+  std::vector<Cells> rows;
+  for (const char* solver : {"default", "variable", "ida"}) {
+    for (int i = 0; i < 4; ++i) rows.push_back(run(solver, "hires", "success"));
+    rows.push_back(run(solver, "pump", "success", std::string_view(solver) == "ida" ? "0.1" : "1e-9"));
+  }
+  EXPECT_EQ(failureAnswer(ended(rows)).sentences.at(1),
+            "The most reliable are `default` and `variable`: 0 % of the runs of each fail or are wrong. The least "
+            "reliable is `ida`: 0 % of its runs fail and 20 % are wrong.");
+}
+
 TEST(FailureAnswer, SaysThatNothingFails) {
   const Answer answer = failureAnswer(ended({run("variable", "hires", "success")}));
   EXPECT_TRUE(containsAll(answer.sentences.at(0), {"of 1 runs, 0 say that they fail, and 0 call"}));
