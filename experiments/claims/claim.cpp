@@ -123,7 +123,11 @@ void requireThresholds(const Reader& reader, const Part& part) {
 
 Part partOf(const toml::table& table, const std::string& file) {
   Reader reader(table, file, "part");
-  Part part{.id = reader.text("id"), .measured = reader.text("measured"), .unit = reader.textOr("unit", "")};
+  Part part{.id = reader.text("id"),
+            .name = reader.text("name"),
+            .measured = reader.text("measured"),
+            .unit = reader.textOr("unit", "")};
+  if (part.name.size() > 40) reader.refuse(*table.get("name"), "a name has up to 40 characters");
   const std::string statistic = reader.text("statistic");
   std::vector<std::string> known;
   bool found = false;

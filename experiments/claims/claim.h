@@ -43,6 +43,7 @@ enum class Statistic {
 /// A part of a claim, with a number of its own. A claim has one or more parts.
 struct Part {
   std::string id;        ///< "C3a"
+  std::string name;      ///< in a few words, up to 40 characters
   std::string measured;  ///< the measured value of a case, in words
   std::string unit;      ///< of the statistic, as it is printed behind the number; may be empty
   Statistic statistic = Statistic::kMedian;

@@ -33,7 +33,8 @@ std::string numbersHtml(const ClaimFindings& findings, Setting setting, bool qui
     const Part& part = findings.claim->parts[i];
     const Judgement& judged = findings.parts[i][static_cast<std::size_t>(setting)].judged;
     if (judged.verdict == Verdict::kDoesNotApply) continue;
-    html += fmt::format("<div class=\"number\">{}: {}{}</div>", part.id, escapeHtml(numberText(part, judged)),
+    html += fmt::format("<div class=\"number\">{}: {}{}</div>", escapeHtml(part.name),
+                        escapeHtml(explainedNumber(part, judged)),
                         quick && judged.cases > 0 ? " <em>preliminary</em>" : "");
   }
   return html;
@@ -66,8 +67,8 @@ std::string protocolHtml(const ClaimFindings& findings) {
   for (std::size_t i = 0; i < findings.parts.size(); ++i) {
     const Part& part = findings.claim->parts[i];
     const std::string condition = conditionText(part);
-    html += fmt::format("<p class=\"part\"><b>{}</b> {}{}</p><ul>", part.id, escapeHtml(part.measured),
-                        condition.empty() ? "" : "; confirmed if " + escapeHtml(condition));
+    html += fmt::format("<p class=\"part\"><b>{}</b> ({}). {}{}</p><ul>", escapeHtml(part.name), part.id,
+                        escapeHtml(part.measured), condition.empty() ? "" : "; confirmed if " + escapeHtml(condition));
     for (const Setting setting : kSettings) {
       html += findingHtml(part, findings.parts[i][static_cast<std::size_t>(setting)], setting);
     }
@@ -88,7 +89,7 @@ std::string historyHtml(const Claim& claim) {
 
 std::string claimsHtml(const ResultTables& tables, const std::filesystem::path& figures) {
   std::string html =
-      "<p class=\"note\">How to read a verdict. A claim has one or more parts (C3a, C3b, …). Each part is a number "
+      "<p class=\"note\">How to read a verdict. A claim has one or more parts. Each part is a number "
       "that is "
       "measured in many cases: runs of a scene by a method. “7 [5, 10.5] stages” is the median of the cases with its "
       "90&nbsp;% interval, which resampling of the scenes gives; a percentage is the share of the cases that fulfil "

@@ -21,7 +21,7 @@ bool hasVerdict(const Judgement& judgement) {
 }
 
 // Lines of cells, each column as wide as its widest cell.
-std::string aligned(const std::vector<Line>& lines) {
+std::vector<std::string> aligned(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths(lines.front().size(), 0);
   const auto widthOf = [](const std::string& cell) {  // without the second and third bytes of a character
     return static_cast<std::size_t>(
@@ -30,13 +30,13 @@ std::string aligned(const std::vector<Line>& lines) {
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], widthOf(line[i]));
   }
-  std::string text;
+  std::vector<std::string> rows;
   for (const auto& line : lines) {
     std::string row;
     for (std::size_t i = 0; i < line.size(); ++i) row += line[i] + std::string(widths[i] - widthOf(line[i]) + 2, ' ');
-    text += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
+    rows.push_back(row.substr(0, row.find_last_not_of(' ') + 1) + '\n');
   }
-  return text;
+  return rows;
 }
 
 // Explains why a part has no verdict, and what an infinite value means.
@@ -45,36 +45,43 @@ std::string notesText(const Part& part, const std::array<Finding, 2>& findings) 
   const auto& [paper, best] = findings;
   const bool same = paper.judged.reason == best.judged.reason;
   if (!paper.judged.reason.empty() && paper.judged.reason != kPreliminary) {
-    text += fmt::format("{}{}: {}\n", part.id, same ? "" : ", paper", paper.judged.reason);
+    text += fmt::format("{}{}: {}\n", part.name, same ? "" : ", paper", paper.judged.reason);
   }
   if (!same && !best.judged.reason.empty() && best.judged.reason != kPreliminary) {
-    text += fmt::format("{}, best: {}\n", part.id, best.judged.reason);
+    text += fmt::format("{}, best: {}\n", part.name, best.judged.reason);
   }
   for (const Setting setting : kSettings) {
     const Judgement& judged = findings[static_cast<std::size_t>(setting)].judged;
-    if (!std::isinf(judged.value)) continue;
-    text += fmt::format("{}, {}: infinite; {}\n", part.id, settingName(setting), judged.remark);
+    if (std::isinf(judged.value))
+      text += fmt::format("{}, {}: infinite; {}\n", part.name, settingName(setting), judged.remark);
   }
   return text;
 }
 
 std::string tableText(const std::vector<ClaimFindings>& all) {
   std::vector<Line> lines{{"", "paper", "", "best", "", "confirmed if"}};
-  std::string reasons;
+  std::string notes;
   for (const auto& [claim, parts] : all) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Part& part = claim->parts[i];
-      Line line{part.id};
+      Line line{"  " + part.name};
       for (const auto& finding : parts[i]) {
         line.emplace_back(verdictText(finding.judged.verdict));
         line.push_back(numberText(part, finding.judged));
       }
       line.push_back(conditionText(part));
       lines.push_back(line);
-      reasons += notesText(part, parts[i]);
+      notes += notesText(part, parts[i]);
     }
   }
-  return aligned(lines) + (reasons.empty() ? "" : "\n" + reasons);
+  const std::vector<std::string> rows = aligned(lines);
+  std::string text = rows.front();
+  auto row = rows.begin() + 1;
+  for (const auto& [claim, parts] : all) {
+    text += fmt::format("{}  {}\n", claim->id, claim->title);
+    for (std::size_t i = 0; i < parts.size(); ++i) text += *row++;
+  }
+  return text + (notes.empty() ? "" : "\n" + notes);
 }
 
 std::string sensitivityText(const Part& part, const Finding& finding) {
@@ -97,7 +104,7 @@ std::string claimText(const ClaimFindings& findings) {
   std::string text = fmt::format("{}  \"{}\" ({})\n    {}\n", claim.id, claim.words, placeOf(claim), commandOf(claim));
   for (std::size_t i = 0; i < findings.parts.size(); ++i) {
     const Part& part = claim.parts[i];
-    text += fmt::format("  {}  {}{}{}\n", part.id, part.measured, part.statistic == Statistic::kReport ? "" : "; ",
+    text += fmt::format("  {}: {}{}{}\n", part.name, part.measured, part.statistic == Statistic::kReport ? "" : "; ",
                         conditionText(part));
     for (const Setting setting : kSettings) {
       text += fmt::format("      {:<7}{}\n", fmt::format("{}:", settingName(setting)),

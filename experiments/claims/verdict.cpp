@@ -140,9 +140,14 @@ std::string numberText(const Part& part, const Judgement& judgement) {
   const bool share = part.statistic == Statistic::kShare;
   const double scale = share ? 100 : 1;
   const std::string_view unit = share ? "%" : std::string_view(part.unit);
-  const auto text = [&](double x) { return std::isinf(x) ? std::string("∞") : fmt::format("{:.3g}", scale * x); };
+  const auto text = [&](double x) { return std::isinf(x) ? "infinite" : fmt::format("{:.3g}", scale * x); };
+  if (std::isinf(judgement.low)) return "infinite";
   return fmt::format("{} [{}, {}]{}{}", text(judgement.value), text(judgement.low), text(judgement.high),
                      unit.empty() ? "" : " ", unit);
+}
+
+std::string explainedNumber(const Part& part, const Judgement& judgement) {
+  return numberText(part, judgement) + (std::isinf(judgement.value) ? ": " + judgement.remark : "");
 }
 
 Verdict combined(const std::vector<Verdict>& parts) {

@@ -173,6 +173,7 @@ constexpr ColumnText kClaims[] = {
     {"part", "", "The part of it: each has a number of its own."},
     {"setting", "", "paper: as the paper describes its program; best: the suite's own configurations."},
     {"title", "", "The claim in a few words."},
+    {"name", "", "The part in a few words."},
     {"measured", "", "What is measured of each case."},
     {"condition", "", "When the part is confirmed."},
     {"verdict", "", "As in answers_paper.csv."},

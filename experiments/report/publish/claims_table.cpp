@@ -14,6 +14,7 @@ TableRow claimRow(const claims::Claim& claim, const claims::Part& part, claims::
           part.id,
           std::string(claims::settingName(setting)),
           claim.title,
+          part.name,
           part.measured,
           claims::conditionText(part),
           std::string(verdictText(judged.verdict)),
@@ -30,8 +31,8 @@ TableRow claimRow(const claims::Claim& claim, const claims::Part& part, claims::
 
 Table claimsTable(const std::vector<claims::ClaimFindings>& findings) {
   Table table{{},
-              {"claim", "part", "setting", "title", "measured", "condition", "verdict", "value", "low", "high", "unit",
-               "cases", "scenes", "reason"},
+              {"claim", "part", "setting", "title", "name", "measured", "condition", "verdict", "value", "low", "high",
+               "unit", "cases", "scenes", "reason"},
               {}};
   for (const auto& claim : findings) {
     for (std::size_t i = 0; i < claim.parts.size(); ++i) {

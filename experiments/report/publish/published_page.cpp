@@ -94,10 +94,10 @@ std::string claimsText(const ReportOptions& options) {
     for (std::size_t i = 0; i < findings.parts.size(); ++i) {
       const auto& part = findings.claim->parts[i];
       const auto number = [&](claims::Setting setting) {
-        return claims::numberText(part, findings.parts[i][static_cast<std::size_t>(setting)].judged);
+        return claims::explainedNumber(part, findings.parts[i][static_cast<std::size_t>(setting)].judged);
       };
       numbers.push_back(escapeHtml(
-          fmt::format("{}: {} / {}", part.measured, number(claims::Setting::kPaper), number(claims::Setting::kBest))));
+          fmt::format("{}: {} / {}", part.name, number(claims::Setting::kPaper), number(claims::Setting::kBest))));
     }
     table.rows.push_back({{fmt::format("<a id=\"{0}\"></a>{0}", findings.claim->id), escapeHtml(findings.claim->title),
                            std::string(verdictText(findings.verdict(claims::Setting::kPaper))),

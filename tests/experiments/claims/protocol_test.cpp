@@ -36,8 +36,8 @@ TEST(ClaimProtocol, NamesWhatExists) {
 std::string file(const std::string& part, const std::string& date = "2026-11-23", const std::string& more = "") {
   return "multibody = []\n[[claim]]\nid = \"C1\"\ntitle = \"t\"\nwords = \"w\"\nsection = \"1\"\nstudies = []\nfigures "
          "= []\n" +
-         more + "[[claim.part]]\nid = \"C1a\"\nmeasured = \"m\"\n" + part + "\n[[claim.history]]\ndate = \"" + date +
-         "\"\nchange = \"c\"\nreason = \"r\"\n";
+         more + "[[claim.part]]\nid = \"C1a\"\nname = \"n\"\nmeasured = \"m\"\n" + part +
+         "\n[[claim.history]]\ndate = \"" + date + "\"\nchange = \"c\"\nreason = \"r\"\n";
 }
 
 std::string refusal(const std::string& text) {
@@ -67,17 +67,17 @@ TEST(ClaimProtocol, ReadsThresholds) {
 TEST(ClaimProtocol, RefusesWithPlace) {
   const std::string good = "statistic = \"median\"\nat_least = 2";
   EXPECT_NO_THROW(parseProtocol(file(good), "f.toml"));
-  EXPECT_TRUE(containsAll(refusal(file(good + "\nat_lest = 3")), {"f.toml:14", "at_lest", "at_least"}));
-  EXPECT_TRUE(containsAll(refusal(file("statistic = \"mean\"")), {"f.toml:12", "mean", "median"}));
+  EXPECT_TRUE(containsAll(refusal(file(good + "\nat_lest = 3")), {"f.toml:15", "at_lest", "at_least"}));
+  EXPECT_TRUE(containsAll(refusal(file("statistic = \"mean\"")), {"f.toml:13", "mean", "median"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"median\"")), {"f.toml:9", "no threshold"}));
-  EXPECT_TRUE(containsAll(refusal(file(good + "\nabove = 1")), {"f.toml:14", "exclude"}));
+  EXPECT_TRUE(containsAll(refusal(file(good + "\nabove = 1")), {"f.toml:15", "exclude"}));
   EXPECT_TRUE(containsAll(refusal(file(good + "\nat_most = 1")), {"no value"}));
   EXPECT_TRUE(containsAll(refusal(file(good + "\ncase_above = 1")), {"share"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"share\"\nat_least = 95\ncase_above = 1")), {"0 to 1"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"existence\"")), {"case_"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"report\"\nabove = 1")), {"median or a share"}));
   EXPECT_TRUE(containsAll(refusal(file(good + "\nnot_best = \"a\"\nnot_paper = \"b\"")), {"no setting"}));
-  EXPECT_TRUE(containsAll(refusal(file("statistic = \"median\"\nat_least = \"2\"")), {"f.toml:13", "number"}));
+  EXPECT_TRUE(containsAll(refusal(file("statistic = \"median\"\nat_least = \"2\"")), {"f.toml:14", "number"}));
   EXPECT_TRUE(containsAll(refusal(file(good, "23.11.2026")), {"date", "year-month-day"}));
   EXPECT_TRUE(containsAll(refusal(file(good, "2026-11-23", "colour = \"red\"\n")), {"f.toml:9", "colour"}));
   EXPECT_TRUE(containsAll(refusal("multibody = []\n"), {"[[claim]]"}));

@@ -11,9 +11,12 @@
 namespace irk::claims {
 namespace {
 
-Part median(Range range) { return {.id = "T1", .measured = "a value", .unit = "times", .confirmed = range}; }
+Part median(Range range) {
+  return {.id = "T1", .name = "test", .measured = "a value", .unit = "times", .confirmed = range};
+}
 Part share(double least, Range clean) {
   return {.id = "T1",
+          .name = "test",
           .measured = "a value",
           .unit = "",
           .statistic = Statistic::kShare,
@@ -21,7 +24,12 @@ Part share(double least, Range clean) {
           .clean = clean};
 }
 Part existence(Range clean) {
-  return {.id = "T1", .measured = "a value", .unit = "", .statistic = Statistic::kExistence, .clean = clean};
+  return {.id = "T1",
+          .name = "test",
+          .measured = "a value",
+          .unit = "",
+          .statistic = Statistic::kExistence,
+          .clean = clean};
 }
 
 // `count` cases of each scene, all of the scene's value.
@@ -113,17 +121,19 @@ TEST(ClaimVerdict, ExistenceNeedsOneCase) {
   EXPECT_EQ(verdictOf(part, scenes({1, 2, 3})), Verdict::kContradicted);
 }
 
-TEST(ClaimVerdict, InfiniteValuesAreWrittenAsSuch) {
-  const auto written = [](const Measurement& measured) {
-    const std::string text = numberText(median(kAtMost), judge(median(kAtMost), measured));
-    return text.substr(0, text.find(']') + 1);
-  };
-  EXPECT_EQ(written(scenes({kInfinity, kInfinity, kInfinity})), "∞ [∞, ∞]");
-  EXPECT_EQ(written(scenes({2, 2, kInfinity})), "2 [2, ∞]");
+TEST(ClaimVerdict, InfiniteValuesAreSaidWithTheirCause) {
+  const Part part = median(kAtMost);
+  Measurement all = scenes({kInfinity, kInfinity, kInfinity});
+  all.remark = "9 of 9 runs fail.";
+  EXPECT_EQ(numberText(part, judge(part, all)), "infinite");
+  EXPECT_EQ(explainedNumber(part, judge(part, all)), "infinite: 9 of 9 runs fail.");
+  const Measurement one = scenes({2, 2, kInfinity});
+  EXPECT_EQ(numberText(part, judge(part, one)), "2 [2, infinite] times");
+  EXPECT_EQ(explainedNumber(part, judge(part, one)), "2 [2, infinite] times");
 }
 
 TEST(ClaimVerdict, ReportsHaveNone) {
-  const Part part{.id = "T1", .measured = "", .unit = "", .statistic = Statistic::kReport};
+  const Part part{.id = "T1", .name = "test", .measured = "", .unit = "", .statistic = Statistic::kReport};
   EXPECT_EQ(verdictOf(part, scenes({1}, 1)), Verdict::kReported);
   EXPECT_EQ(verdictOf(part, {}), Verdict::kNotMeasurable);
 }

@@ -67,7 +67,7 @@ TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   }
   const Ended claims = program({"claims", "--results", results()});
   EXPECT_EQ(claims.status, 0) << claims.err;
-  EXPECT_NE(claims.out.find("C7a  "), claims.out.npos);
+  EXPECT_NE(claims.out.find("  drift over the error  "), claims.out.npos);
   const Ended report = program({"report", "--results", results()});
   EXPECT_EQ(report.status, 0) << report.err;
   EXPECT_TRUE(containsAll(report.out, {"index.html"}));
