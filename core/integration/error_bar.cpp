@@ -24,15 +24,17 @@ Vec<double> distances(const auto& a, const auto& b) {
 
 Vec<double> unknown(Index n) { return Vec<double>::Constant(n, std::numeric_limits<double>::quiet_NaN()); }
 
-// Sets `tolerances` and `worst`. `second`: the more accurate result, whose magnitudes count: a result that is wrong and
-// large would seem to be within a few tolerances of its own.
+// Sets `tolerances` and `worst`. The smaller one of the two results' values counts: one that is wrong and large would
+// seem to be within 1 / rtol tolerances of its own.
 template <class Real>
-void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& scale, ErrorBar& bar) {
+void weigh(const State<Real>& first, const State<Real>& second, const Tolerances& t, const Vec<double>& scale,
+           ErrorBar& bar) {
   Index place = 0;
-  const auto add = [&](const Vec<double>& errors, const auto& y) {
+  const auto add = [&](const Vec<double>& errors, const auto& y, const auto& other) {
     for (Index i = 0; i < errors.size(); ++i, ++place) {
       const double magnitude = place < scale.size() ? scale[place] : 1;
-      const double size = errors[i] / t.of(magnitude, static_cast<double>(y[i]));
+      const auto size_of = [i](const auto& values) { return std::abs(static_cast<double>(values[i])); };
+      const double size = errors[i] / t.of(magnitude, std::fmin(size_of(y), size_of(other)));
       // A component that is not finite is the worst one.
       if (bar.worst < 0 || size > bar.tolerances || std::isnan(size)) {
         bar.tolerances = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
@@ -41,9 +43,9 @@ void weigh(const State<Real>& second, const Tolerances& t, const Vec<double>& sc
     }
   };
   bar.tolerances = 0;
-  add(bar.u, second.u);
-  add(bar.v, second.v);
-  add(bar.x, second.x);
+  add(bar.u, first.u, second.u);
+  add(bar.v, first.v, second.v);
+  add(bar.x, first.x, second.x);
 }
 
 }  // namespace
@@ -212,7 +214,7 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   bar.x = distances<Real>(of.result.x, other.state.x) + switches.x;
   bar.z = distances<Real>(of.result.z(), other.state.z());
   if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t)));
-  weigh(other.state, of.tolerances, of.scale, bar);
+  weigh(of.result, other.state, of.tolerances, of.scale, bar);
   return bar;
 }
 

@@ -92,7 +92,29 @@ TEST(ErrorBar, CountsToleranceByTheNorm) {
   // The errors of the start as a result: sin 1.5 of u, 1 - cos 1.5 of v.
   EXPECT_NEAR(tolerances(NormKind::kAbsolute, 1e-9) / (std::sin(1.5) / 1e-4), 1, 0.01);
   EXPECT_NEAR(tolerances(NormKind::kAbsolute, 1e3) / (std::sin(1.5) / 1e-4), 1, 0.01);
-  EXPECT_NEAR(tolerances(NormKind::kMixed, 1) / ((1 - std::cos(1.5)) / (1e-4 + 1e-2 * std::cos(1.5))), 1, 0.03);
+  // In the mixed norm of u as well, which is 0 in the result.
+  EXPECT_NEAR(tolerances(NormKind::kMixed, 1) / (std::sin(1.5) / 1e-4), 1, 0.01);
+  EXPECT_NEAR(tolerances(NormKind::kMixed, 1e3) / (std::sin(1.5) / 1e-1), 1, 0.01);
+}
+
+// A wrong result that is large, whichever of the two it is, is not within 1 / rtol tolerances of itself.
+TEST(ErrorBar, CountsTolerancesOfTheSmallerResult) {
+  const GrowingError problem{-1};
+  const IntegratorOptions options = embedded(1e-2);
+  const double exact = std::sin(1.5);
+  for (const double first : {1e8, exact / 1e8}) {
+    State<double> result = problem.start();
+    result.t = 1.5;
+    result.u[0] = first;
+    Integrator<double> other(makeSystem<double>(problem, {}), makeMethods<double>("lobatto_iiic", 13, 4),
+                             independentOptions<double>(options));
+    Solution<double> second;
+    const ErrorBar bar =
+        measureErrorBar(result, other, problem.start(), options.tolerances, Vec<double>::Constant(3, 1e-12), second);
+    const double smaller = std::min(first, exact), tolerance = 1e-2 * (1e-12 + smaller);
+    EXPECT_NEAR(bar.tolerances * tolerance / std::abs(first - exact), 1, 1e-2) << first;
+    EXPECT_GT(bar.tolerances, 1e8) << first;
+  }
 }
 
 /// y' = -y until t = 1, then no number.
