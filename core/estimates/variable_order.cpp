@@ -48,6 +48,7 @@ VariableOrder<Real>::VariableOrder(const StepAttemptSetup<Real>& setup)
       past_at_(start_),
       lower_error_(kUnknown) {
   const Index highest = setup.schemes.tableau(setup.schemes.size() - 1).stages();
+  ranks_.reserve(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Tableau<Real>& tableau = setup.schemes.tableau(i);
     ranks_.push_back({static_cast<double>(tableau.stages()), EmbeddedEstimate<Real>::order(tableau),

@@ -60,10 +60,10 @@ struct Stop {
 template <class Real>
 class Integrator<Real>::Run {
  public:
-  Run(std::shared_ptr<const System<Real>> system, const SchemeList<Real>& schemes, std::size_t start,
+  Run(std::shared_ptr<const System<Real>> system, SchemeList<Real> schemes, std::size_t start,
       const IntegratorOptions& options, const Vec<double>& scale)
       : system_(checked(std::move(system), scale)),
-        schemes_(schemes),
+        schemes_(std::move(schemes)),
         start_(start),
         options_(legal(options, *system_, schemes_, start)),
         scale_(scale),

@@ -16,9 +16,10 @@ namespace irk {
 
 namespace {
 
-// Members of A, or of b and c as one column.
-template <class Real>
-void requireFinite(const Tableau<Real>& tableau, const char* name, const Mat<Real>& numbers) {
+// Members of A, b or c.
+template <class Real, int Columns>
+void requireFinite(const Tableau<Real>& tableau, const char* name,
+                   const Eigen::Matrix<Real, Eigen::Dynamic, Columns>& numbers) {
   using std::isfinite;  // for double; other scalars are found by their namespace
   for (Index i = 0; i < numbers.size(); ++i) {
     if (isfinite(numbers.data()[i])) continue;
@@ -44,12 +45,14 @@ void requireTableau(const Tableau<Real>& tableau) {
     fail(std::string(name) + " has " + std::to_string(size) + " numbers: " + std::to_string(s) +
          " are expected, one for each row of A");
   }
-  requireFinite<Real>(tableau, "A", tableau.A);
-  requireFinite<Real>(tableau, "b", tableau.b);
-  requireFinite<Real>(tableau, "c", tableau.c);
-  const std::string place = "tableau '" + tableau.id + "': ";
-  requireInRange(place + "order", tableau.order, Range::integers(1, 2 * s));
-  requireInRange(place + "stage_order", tableau.stage_order, Range::integers(0, s));
+  requireFinite(tableau, "A", tableau.A);
+  requireFinite(tableau, "b", tableau.b);
+  requireFinite(tableau, "c", tableau.c);
+  const auto requireOrder = [&](const char* name, int order, const Range& range) {
+    if (!range.contains(order)) requireInRange("tableau '" + tableau.id + "': " + name, order, range);
+  };
+  requireOrder("order", tableau.order, Range::integers(1, 2 * s));
+  requireOrder("stage_order", tableau.stage_order, Range::integers(0, s));
 }
 
 template <class Real>
@@ -104,7 +107,10 @@ std::shared_ptr<const Value> kept(const Tableau<Real>& tableau, const std::strin
   if constexpr (std::is_same_v<Real, double>) {
     if (tableau.stages() <= kMostKeptStages) {
       static Kept<Value> all;
-      std::string key = names;
+      std::string key;
+      const auto numbers = static_cast<std::size_t>((tableau.stages() + 3) * tableau.stages());
+      key.reserve(names.size() + numbers * sizeof(double));
+      key = names;
       appendKey(tableau.A, key);
       appendKey(tableau.b, key);
       appendKey(tableau.c, key);

@@ -16,11 +16,12 @@ void requireCount(const std::string& what, Index given, Index wanted) {
 }
 
 // 0 to 2: the index minus 1 of equations of index 1 to 3.
-void requirePowers(const std::string& what, const std::vector<int>& powers, Index wanted) {
-  requireCount("powers of the " + what, static_cast<Index>(powers.size()), wanted);
+void requirePowers(const char* of, const std::vector<int>& powers, Index wanted) {
+  const auto count = static_cast<Index>(powers.size());
+  if (count != wanted) requireCount(std::string("powers of the ") + of, count, wanted);
   for (std::size_t i = 0; i < powers.size(); ++i) {
     if (powers[i] >= 0 && powers[i] <= 2) continue;
-    throw Misuse("powers of the " + what + ": number " + std::to_string(i) +
+    throw Misuse(std::string("powers of the ") + of + ": number " + std::to_string(i) +
                  " (from 0 on) = " + std::to_string(powers[i]) + ": 0, 1 or 2 is expected");
   }
 }
