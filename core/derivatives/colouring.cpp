@@ -63,24 +63,6 @@ ColouredDirections::ColouredDirections(const Directions& group, const RowSets& r
   }
 }
 
-ColouredDirections ColouredDirections::dense(const Directions& group, Index n) {
-  ColouredDirections all;
-  all.directions = group;
-  all.first_direction.reserve(group.size() + 1);
-  all.first_entry.reserve(group.size() + 1);
-  all.entries.reserve(group.size() * static_cast<std::size_t>(n));
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    all.first_direction.push_back(i);
-    all.first_entry.push_back(static_cast<std::uint32_t>(all.entries.size()));
-    for (Index row = 0; row < n; ++row) {
-      all.entries.push_back({static_cast<int>(row), static_cast<std::uint32_t>(group[i].column * n + row)});
-    }
-  }
-  all.first_direction.push_back(group.size());
-  all.first_entry.push_back(static_cast<std::uint32_t>(all.entries.size()));
-  return all;
-}
-
 double ColouredDirections::weightOf(std::size_t direction) {
   std::uint64_t z = (direction + 1) * 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;

@@ -193,18 +193,18 @@ void Differentiator<Real>::take(const ColouredDirections& group, std::size_t col
   for (std::size_t i = group.begin(colour); i < group.end(colour); ++i) {
     Real* const values = matrices[group.directions[i].matrix];
     if (exact && !looked_) {
-      for (const auto& entry : group.entriesOf(i)) values[entry.slot] = change(entry.row);
+      group.forEachEntry(i, [&](Index row, Index slot) { values[slot] = change(row); });
       continue;
     }
     const Real weight = looked_ ? Real(ColouredDirections::weightOf(i)) : Real(0);
-    for (const auto& entry : group.entriesOf(i)) {
-      const Real& value = change(entry.row);
-      values[entry.slot] = exact ? value : Real(value / delta_[static_cast<Index>(i)]);
-      if (!looked_) continue;
+    group.forEachEntry(i, [&](Index row, Index slot) {
+      const Real& value = change(row);
+      values[slot] = exact ? value : Real(value / delta_[static_cast<Index>(i)]);
+      if (!looked_) return;
       const Real part = weight * value;
-      expected[entry.row] += part;
-      magnitude[entry.row] += abs(part);
-    }
+      expected[row] += part;
+      magnitude[row] += abs(part);
+    });
   }
 }
 

@@ -36,17 +36,24 @@ TEST(Pattern, DenseDirectionsAreThoseOfAFullPattern) {
   const Directions group = allDirections(n);
   const ColouredDirections fast = ColouredDirections::dense(group, n.n());
   const ColouredDirections slow(group, fullRows(group.size(), n.n()), *Pattern::dense(n.n()));
-  EXPECT_EQ(fast.first_direction, slow.first_direction);
-  EXPECT_EQ(fast.first_entry, slow.first_entry);
+  ASSERT_EQ(fast.colours(), slow.colours());
+  for (std::size_t colour = 0; colour <= slow.colours(); ++colour) {
+    EXPECT_EQ(fast.begin(colour), slow.begin(colour));
+    EXPECT_EQ(fast.end(colour), slow.end(colour));
+  }
   ASSERT_EQ(fast.directions.size(), slow.directions.size());
   for (std::size_t i = 0; i < slow.directions.size(); ++i) {
     EXPECT_EQ(fast.directions[i].matrix, slow.directions[i].matrix);
     EXPECT_EQ(fast.directions[i].column, slow.directions[i].column);
   }
-  ASSERT_EQ(fast.entries.size(), slow.entries.size());
-  for (std::size_t e = 0; e < slow.entries.size(); ++e) {
-    EXPECT_EQ(fast.entries[e].row, slow.entries[e].row);
-    EXPECT_EQ(fast.entries[e].slot, slow.entries[e].slot);
+  const auto entriesOf = [](const ColouredDirections& coloured, std::size_t direction) {
+    std::vector<std::pair<Index, Index>> entries;
+    coloured.forEachEntry(direction, [&](Index row, Index slot) { entries.emplace_back(row, slot); });
+    return entries;
+  };
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    EXPECT_EQ(entriesOf(slow, i).size(), 6u);
+    EXPECT_EQ(entriesOf(fast, i), entriesOf(slow, i));
   }
 }
 
