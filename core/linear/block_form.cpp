@@ -47,12 +47,19 @@ std::string keyOf(const Mat<double>& A) {
   return key;
 }
 
+std::shared_ptr<const BlockForm<double>> keptForm(KeptForms& kept, const Mat<double>& A, auto make) {
+  return kept.of(keyOf(A), [&] {
+    auto form = make(A);
+    form.T2 = form.T * form.T;
+    return form;
+  });
+}
+
 template <class Real>
 BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
   const Eigen::RealSchur<Mat<Real>> schur(A);
   BlockForm<Real> form;
-  form.Q = schur.matrixU();
-  form.Q_inverse = form.Q.transpose();
+  Mat<Real> Q = schur.matrixU();
   form.T = schur.matrixT();
   // Eigen splits real pairs into two blocks, but leaves the diagonal entries of complex pairs unequal.
   for (Index i = 0; i + 1 < A.rows(); ++i) {
@@ -66,14 +73,15 @@ BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
       const Eigen::JacobiRotation<Real> rotation(Real(cos(phi)), Real(sin(phi)));
       form.T.applyOnTheLeft(i, i + 1, rotation.adjoint());
       form.T.applyOnTheRight(i, i + 1, rotation);
-      form.Q.applyOnTheRight(i, i + 1, rotation);
+      Q.applyOnTheRight(i, i + 1, rotation);
       const Real mean = (form.T(i, i) + form.T(i + 1, i + 1)) / Real(2);
       form.T(i, i) = mean;
       form.T(i + 1, i + 1) = mean;
       ++i;
     }
   }
-  form.Q_inverse = form.Q.transpose();
+  form.to_basis = Q;
+  form.from_basis = Q.transpose();
   appendBlocks(form);
   return form;
 }
@@ -86,19 +94,19 @@ BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   const Index s = A.rows();
   BlockForm<Real> form;
   form.diagonal = true;
-  form.Q.setZero(s, s);
+  Mat<Real> Q = Mat<Real>::Zero(s, s);
   form.T.setZero(s, s);
   for (Index i = 0; i < s;) {
     const Real alpha = values[i].real();
     const Real omega = values[i].imag();
     form.T(i, i) = alpha;
-    for (Index k = 0; k < s; ++k) form.Q(k, i) = vectors(k, i).real();
+    for (Index k = 0; k < s; ++k) Q(k, i) = vectors(k, i).real();
     if (omega == Real(0)) {
       i += 1;
       continue;
     }
     // A [x y] = [x y] [[alpha, omega], [-omega, alpha]] for the eigenvector x + i y.
-    for (Index k = 0; k < s; ++k) form.Q(k, i + 1) = vectors(k, i).imag();
+    for (Index k = 0; k < s; ++k) Q(k, i + 1) = vectors(k, i).imag();
     form.T(i + 1, i + 1) = alpha;
     form.T(i, i + 1) = omega;
     form.T(i + 1, i) = -omega;
@@ -106,9 +114,9 @@ BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
   }
   // For a double zero eigenvalue of a defective A, the eigenvectors found agree to the square root of round-off or
   // better, so that their condition is very large. The worst family with a regular A has condition 3.7^s.
-  const Eigen::FullPivLU<Mat<Real>> lu(form.Q);
-  form.Q_inverse = lu.inverse();
-  const double condition = static_cast<double>(form.Q.cwiseAbs().maxCoeff() * form.Q_inverse.cwiseAbs().maxCoeff());
+  const Eigen::FullPivLU<Mat<Real>> lu(Q);
+  const Mat<Real> Q_inverse = lu.inverse();
+  const double condition = static_cast<double>(Q.cwiseAbs().maxCoeff() * Q_inverse.cwiseAbs().maxCoeff());
   const double limit = kEigenConditionPerStage * std::pow(kEigenConditionGrowth, double(s));
   if (!lu.isInvertible() || !(condition < limit)) {
     throw Misuse(
@@ -117,6 +125,8 @@ BlockForm<Real> makeEigenForm(const Mat<Real>& A) {
         std::to_string(condition) + ", allowed below " + std::to_string(limit) +
         "); use solver 'schur' or 'coupled_dense'");
   }
+  form.to_basis = Q_inverse.transpose();
+  form.from_basis = Q.transpose();
   appendBlocks(form);
   return form;
 }
@@ -129,9 +139,10 @@ std::shared_ptr<const BlockForm<BigFloat>> madePrecisely(const Mat<BigFloat>& A,
     const WorkingDigits precise(std::min(2 * WorkingDigits::now(), WorkingDigits::kMost));
     *form = make(A);
   }
-  form->Q = roundedToWork(form->Q);
-  form->Q_inverse = roundedToWork(form->Q_inverse);
+  form->to_basis = roundedToWork(form->to_basis);
+  form->from_basis = roundedToWork(form->from_basis);
   form->T = roundedToWork(form->T);
+  form->T2 = form->T * form->T;
   for (auto& block : form->blocks) {
     block.mu = {block.mu.real().rounded(), block.mu.imag().rounded()};
     block.sigma = block.sigma.rounded();
@@ -145,7 +156,7 @@ template <class Real>
 std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A) {
   if constexpr (std::is_same_v<Real, double>) {
     static KeptForms kept;
-    return kept.of(keyOf(A), [&] { return makeSchurForm(A); });
+    return keptForm(kept, A, makeSchurForm<double>);
   } else {
     return madePrecisely(A, makeSchurForm<Real>);
   }
@@ -155,7 +166,7 @@ template <class Real>
 std::shared_ptr<const BlockForm<Real>> eigenForm(const Mat<Real>& A) {
   if constexpr (std::is_same_v<Real, double>) {
     static KeptForms kept;
-    return kept.of(keyOf(A), [&] { return makeEigenForm(A); });
+    return keptForm(kept, A, makeEigenForm<double>);
   } else {
     return madePrecisely(A, makeEigenForm<Real>);
   }

@@ -9,11 +9,13 @@
 
 namespace irk {
 
-/// A = Q T Q^-1, where T has 1 x 1 and 2 x 2 blocks on its diagonal. All matrices are s x s.
+/// A = Q T Q^-1, where T has 1 x 1 and 2 x 2 blocks on its diagonal. All matrices are s x s. The stages are columns of
+/// n x s matrices: Y = R to_basis and R = Y from_basis.
 template <class Real>
 struct BlockForm {
-  Mat<Real> Q, Q_inverse, T;
-  bool diagonal = false;  ///< true: T is block diagonal (eigenbasis); false: block upper triangular (Schur)
+  Mat<Real> to_basis, from_basis;  ///< Q^-T and Q^T
+  Mat<Real> T, T2;                 ///< T and T^2
+  bool diagonal = false;           ///< true: T is block diagonal (eigenbasis); false: block upper triangular (Schur)
   struct Block {
     Index start;            ///< its first row in T
     Index size;             ///< 1: a real eigenvalue; 2: a complex pair

@@ -17,25 +17,21 @@ constexpr double kSameEigenvalue = 1e4;
 // Sparse blocks that have no common order of pivots are factorized one by one for so many factorizations.
 constexpr int kApart = 10;
 
+Index square(Index x) { return x * x; }
+
 }  // namespace
 
 template <class Real, template <class> class Lu>
 Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
     : setup_(setup),
       form_(*setup_.form),
-      T2_(form_.T * form_.T),
-      to_basis_(form_.Q_inverse.transpose()),
-      from_basis_(form_.Q.transpose()),
       outcomes_(form_.blocks.size()),
       small_(kInverts && setup.pattern->n <= kSmallInverse && setup.A.rows() > 1),
+      inverses_(small_ ? square(2 * setup.pattern->n) : 0, small_ ? std::ssize(form_.blocks) : 0),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
       D2Y_(setup.pattern->n, D1Y_.cols()) {
-  for (const auto& block : form_.blocks) {
-    const Index size = small_ ? block.size * setup.pattern->n : 0;
-    inverses_.emplace_back(size * size);
-  }
   if constexpr (kSparse) {
     if (!setup_.analysis) {
       setup_.analysis = std::make_shared<const SparseAnalysis>(setup.pattern->column_start, setup.pattern->row);
@@ -166,7 +162,7 @@ template <class Real, template <class> class Lu>
 template <class Size>
 Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index, Size n) {
   const auto& block = form_.blocks[index];
-  Real* const inverse = inverses_[index].data();
+  Real* const inverse = inverseOf(index);
   const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
   const Complex m1 = h_ * block.mu;
   const Complex m2 = detail::product(m1, m1);
@@ -205,7 +201,7 @@ void Decoupled<Real, Lu>::coupleRows(const typename BlockForm<Real>::Block& bloc
     Real* const y = Y_.data() + i * n;
     for (Index m = block.start + block.size; m < Y_.cols(); ++m) {
       const Real f1 = h_ * form_.T(i, m);
-      const Real f2 = h_ * h_ * T2_(i, m);
+      const Real f2 = h_ * h_ * form_.T2(i, m);
       const Real *const d1 = D1Y_.data() + m * n, *const d2 = D2Y_.data() + m * n;
       for (Index k = 0; k < n; ++k) y[k] -= f1 * d1[k] + f2 * d2[k];
     }
@@ -267,12 +263,12 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
 template <class Real, template <class> class Lu>
 template <class Size>
 void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride, Size n) {
-  inlinedProduct(rhs, stride, n, to_basis_, Y_.data(), n);
+  inlinedProduct(rhs, stride, n, form_.to_basis, Y_.data(), n);
   for (std::size_t k = form_.blocks.size(); k-- > 0;) {
     const auto& block = form_.blocks[k];
     if (!form_.diagonal) coupleRows(block, n);
     Real* const y = Y_.data() + block.start * n;
-    const Real* const inverse = inverses_[k].data();
+    const Real* const inverse = inverseOf(k);
     if (block.size == 1) {
       multiplySmall(inverse, y, n);
     } else if constexpr (std::is_same_v<decltype(n), Index>) {
@@ -283,7 +279,7 @@ void Decoupled<Real, Lu>::solveSmall(Real* rhs, Index stride, Size n) {
     if (form_.diagonal || k == 0) continue;
     for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, n);
   }
-  inlinedProduct(Y_.data(), n, n, from_basis_, rhs, stride);
+  inlinedProduct(Y_.data(), n, n, form_.from_basis, rhs, stride);
 }
 
 template <class Real, template <class> class Lu>
@@ -295,7 +291,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
     if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
     if constexpr (kInverts) {
       if (small_) {
-        withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverses_[k].data(), x, n); });
+        withSize<kSmallInverse>(Y_.rows(), [&](auto n) { multiplySmall(inverseOf(k), x, n); });
         return true;
       }
     }
@@ -318,9 +314,9 @@ void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
     }
   }
   const Index n = Y_.rows(), stride = rhs.outerStride();
-  productOnThreads(setup_.threads, rhs.data(), stride, n, to_basis_, Y_.data(), n);
+  productOnThreads(setup_.threads, rhs.data(), stride, n, form_.to_basis, Y_.data(), n);
   solveBlocks();
-  productOnThreads(setup_.threads, Y_.data(), n, n, from_basis_, rhs.data(), stride);
+  productOnThreads(setup_.threads, Y_.data(), n, n, form_.from_basis, rhs.data(), stride);
 }
 
 // Solves with all blocks, in Y_. In a block triangular form each needs those to the right of it.

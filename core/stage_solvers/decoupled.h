@@ -43,11 +43,10 @@ class Decoupled final : public StageSolver<Real> {
   void solveSmall(Real* rhs, Index stride, Size n);
   template <class Size>
   Outcome invertBlock(std::size_t index, Size n);
+  Real* inverseOf(std::size_t block) { return inverses_.col(static_cast<Index>(block)).data(); }
 
   StageSolverSetup<Real> setup_;
   const BlockForm<Real>& form_;  // of setup_
-  Mat<Real> T2_;
-  Mat<Real> to_basis_, from_basis_;  // Y = R to_basis, R = Y from_basis
   // Factors of the real blocks and of the complex pairs, in their order. None where blocks are inverted, and none for
   // sparse blocks as long as one order of pivots serves all of them.
   std::vector<Lu<Real>> real_lu_;
@@ -68,7 +67,7 @@ class Decoupled final : public StageSolver<Real> {
   int apart_ = 0;                  // factorizations until the blocks are tried together again
   std::vector<Outcome> outcomes_;  // by block
   bool small_;                     // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
-  std::vector<Vec<Real>> inverses_;  // by block, as real matrices of size n or 2n
+  Mat<Real> inverses_;             // a column for each block: its inverse, as a real matrix of size n or 2n
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;

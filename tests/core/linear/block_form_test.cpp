@@ -13,7 +13,7 @@ namespace irk {
 namespace {
 
 double distance(const BlockForm<double>& form, const Mat<double>& A) {
-  return (form.Q * form.T * form.Q_inverse - A).cwiseAbs().maxCoeff();
+  return (form.from_basis.transpose() * form.T * form.to_basis.transpose() - A).cwiseAbs().maxCoeff();
 }
 
 TEST(BlockForm, IsThatOfItsMatrixEachTime) {
@@ -22,6 +22,7 @@ TEST(BlockForm, IsThatOfItsMatrixEachTime) {
       const Mat<double> A = makeTableau<double>(id).A;
       EXPECT_LT(distance(*schurForm(A), A), 1e-14) << id;
       EXPECT_LT(distance(*eigenForm(A), A), 1e-11) << id;
+      for (const auto& form : {schurForm(A), eigenForm(A)}) EXPECT_EQ(form->T2, form->T * form->T) << id;
       EXPECT_TRUE(eigenForm(A)->diagonal) << id;
       EXPECT_FALSE(schurForm(A)->diagonal) << id;
       const Mat<double> other = A * 0.5;  // of the same size
