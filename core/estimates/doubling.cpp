@@ -174,7 +174,7 @@ class Doubling : public StepAttempt<Real> {
   // Looks between the stages of the half steps.
   struct Looks {
     Looks(const StepAttemptSetup<Real>& setup, NewtonMatrix<Real>& halves)
-        : filter(setup.system, setup.scheme(), setup.options, setup.jacobian, halves, setup.norm, setup.counters),
+        : filter(setup.system, setup.scheme(), setup.options, halves, setup.norm, setup.counters),
           defect(filter, setup.scheme(), setup.system.sizes(), Defect<Real>::Start::kLookAt, setup.options.step.looks) {
     }
     EmbeddedEstimate<Real> filter;

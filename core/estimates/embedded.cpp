@@ -65,8 +65,8 @@ Real EmbeddedEstimate<Real>::weight(const Tableau<Real>& tableau) {
 
 template <class Real>
 EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme,
-                                         const IntegratorOptions& options, SharedJacobian<Real>& jacobian,
-                                         NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters)
+                                         const IntegratorOptions& options, NewtonMatrix<Real>& stages,
+                                         const ErrorNorm<Real>& norm, Counters& counters)
     : system_(system),
       scheme_(scheme),
       norm_(norm),
@@ -74,26 +74,24 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       threads_(options.threads),
       mu_(weight(scheme.tableau)),
       stages_(stages),
-      make_own_([&system, &jacobian, &counters, kind = options.solver, mu = mu_] {
-        return NewtonMatrix<Real>(jacobian, kind, filterSetup(system, mu), counters);
-      }),
-      row_powers_(system.rowPowers()),
-      scaled_(std::any_of(row_powers_.begin(), row_powers_.end(), [](int power) { return power != 0; })),
-      scales_(sizes_.n()),
+      kind_(options.solver),
+      counters_(counters),
+      scaled_(scalesRows(system.rowPowers())),
+      scales_(scaled_ ? sizes_.n() : 0),
       basis_(scheme.s),
-      start_{atStart(scheme), scheme.A_transposed * atStart(scheme)},
+      start_{atStart(scheme), Vec<Real>(scheme.s)},
       lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
       defect_(sizes_.n()),
       slip_(sizes_.nu),
       at_(sizes_),
       error_(sizes_),
-      zero_(sizes_),
-      ones_(Vec<double>::Ones(sizes_.components())),
-      e_(sizes_.n(), 1) {}
+      e_(sizes_.n(), 1) {
+  start_.integrals.noalias() = scheme.A_transposed * start_.weights;
+}
 
 template <class Real>
 Index EmbeddedEstimate<Real>::worstComponent() const {
-  return norm_.worst(error_, zero_, 1, ones_);
+  return norm_.worst(error_, State<Real>(sizes_), 1, Vec<double>::Ones(sizes_.components()));
 }
 
 // The point with u, and v, x, d of `state`, and w = K(0).
@@ -109,7 +107,7 @@ Point<Real> EmbeddedEstimate<Real>::pointAt(const Real& t, const Vec<Real>& u, c
 template <class Real>
 Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   if (stages_.solveReal(h, mu_, e_.data())) return Outcome::kSuccess;
-  if (!own_) own_.emplace(make_own_());
+  if (!own_) own_.emplace(stages_.shared(), kind_, filterSetup(system_, mu_), counters_);
   const Outcome outcome = own_->prepare(h);
   if (outcome == Outcome::kSuccess) own_->solve(e_);
   return outcome;
@@ -161,7 +159,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
                                       const AtStart& at_start, double again_above) -> Result {
   const Real& h = stages.h;
   Result result;
-  if (scaled_) rowScales(row_powers_, h, scales_);
+  if (scaled_) rowScales(system_.rowPowers(), h, scales_);
   productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), at_start.weights, defect_.data(), sizes_.n());
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
   productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
@@ -211,7 +209,7 @@ bool EmbeddedEstimate<Real>::raises(Vec<Real>& most) const {
 template <class Real>
 auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<Real>& most) -> Result {
   Result result;
-  if (scaled_) rowScales(row_powers_, h, scales_);
+  if (scaled_) rowScales(system_.rowPowers(), h, scales_);
   copyOnThreads(threads_, at.w.data(), at.w.size(), defect_.data());
   result.outcome = evaluateAt(pointAt(at.t, at.u, at), EquationsAt::kInside);
   if (result.outcome != Outcome::kSuccess || !raises(most)) return result;

@@ -1,7 +1,6 @@
 // The embedded error estimate: a method of order s (or s - 1) in the same stages, filtered by one real system.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "core/newton/newton_matrix.h"
@@ -29,8 +28,7 @@ class EmbeddedEstimate {
   /// Requires an invertible A without an explicit first stage, which would be the step's start, and a stage order of at
   /// least 1. (Radau IA with one stage, c = 0 and a = 1, has stage order 0; its stage values belong to another time.)
   EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
-                   SharedJacobian<Real>& jacobian, NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm,
-                   Counters& counters);
+                   NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);
 
   struct Result {
     Outcome outcome = Outcome::kSuccess;
@@ -88,18 +86,17 @@ class EmbeddedEstimate {
   int threads_;
   Real mu_;
   NewtonMatrix<Real>& stages_;
-  std::function<NewtonMatrix<Real>()> make_own_;
+  StageSolverKind kind_;
+  Counters& counters_;
   std::optional<NewtonMatrix<Real>> own_;  // made when `stages_` cannot solve the real system
-  std::vector<int> row_powers_;
-  bool scaled_;  // whether any row is scaled
+  bool scaled_;                            // whether any row is scaled
   Vec<Real> scales_;
   Vec<Real> basis_;
   AtStart start_, lower_;  // with the full degree, and with a lower one
   Vec<Real> defect_;       // K(0), n
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
   State<Real> at_;         // the point where the residual is evaluated, unless that is the step's start
-  State<Real> error_, zero_;
-  Vec<double> ones_;
+  State<Real> error_;
   Mat<Real> e_;  // n x 1
 };
 

@@ -43,7 +43,7 @@ class VariableOrder final : public StepAttempt<Real> {
     Member(const StepAttemptSetup<Real>& setup, const Scheme<Real>& s)
         : scheme(s),
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),
-          estimate(setup.system, s, setup.options, setup.jacobian, stepper.matrix(), setup.norm, setup.counters),
+          estimate(setup.system, s, setup.options, stepper.matrix(), setup.norm, setup.counters),
           defect(estimate, s, setup.system.sizes(), Defect<Real>::Start::kLeaveOut, setup.options.step.looks) {}
     const Scheme<Real>& scheme;
     Stepper<Real> stepper;

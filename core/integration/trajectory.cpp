@@ -41,7 +41,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
              jacobian_.differentiator().scratch()),
       amounts_(system, start_, counters),
       switches_(system),
-      inside_(system),
       state_(system.sizes()),
       next_(system.sizes()) {
   const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
@@ -70,6 +69,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   attempt_->begin(length);
   modes_->begin(static_cast<double>(start.t), length);
   attempt_->keepPieces(monitor.inside);
+  if (monitor.inside && !inside_) inside_.emplace(system_);
   jacobian_.forgetPattern();
   restart();
   followOrder(1, 0);
@@ -235,9 +235,9 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
 template <class Real>
 void Trajectory<Real>::report(const CommittedStep<Real>& step) {
   const State<Real> scene = system_.toScene(state_);
-  const bool inside = monitor_->inside && inside_.begin(next_, state_.t, scene, attempt_->pieces(next_));
+  const bool inside = monitor_->inside && inside_->begin(next_, state_.t, scene, attempt_->pieces(next_));
   monitor_->accepted({state_.t, static_cast<double>(step.h), step.attempt.error, step.attempt.newton_iterations, scene,
-                      inside ? &inside_ : nullptr});
+                      inside ? &*inside_ : nullptr});
 }
 
 // Sets the new mode and its (a, k, z), which may make further switches due.

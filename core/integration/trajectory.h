@@ -104,7 +104,7 @@ class Trajectory {
   bool leaves_out_ = false;                             // constraints that have to follow from the others
   Switches<Real> switches_;
   ChatterDetector chatter_;
-  InsideAttempt<Real> inside_;
+  std::optional<InsideAttempt<Real>> inside_;  // where the monitor asks for it
   State<Real> state_, next_;
   std::optional<State<Real>> earlier_;  // at a switch that the monitor is told of: LocatedSwitch::earlier
   const Monitor<Real>* monitor_ = nullptr;

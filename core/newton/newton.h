@@ -29,7 +29,7 @@ template <class Real>
 struct NewtonContext {
   StageEquations<Real>& eq;
   NewtonMatrix<Real>& matrix;
-  StagewiseMatrix<Real>& stagewise;
+  StagewiseMatrix<Real>* stagewise;  ///< null for a strategy without `uses_stage_matrices`
   const ErrorNorm<Real>& norm;
   Counters& counters;
   JacobianUse use;

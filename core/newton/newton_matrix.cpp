@@ -30,6 +30,7 @@ SharedJacobian<Real>::SharedJacobian(const System<Real>& system, const Scheme<Re
                       options.threads),
       at_(options.jacobian_point == JacobianPoint::kEachStage ? static_cast<std::size_t>(scheme.implicitStages()) : 1),
       point_(options.jacobian_point),
+      middle_(point_ == JacobianPoint::kMiddle ? system.sizes() : Sizes{}),
       counters_(counters) {}
 
 template <class Real>
@@ -41,7 +42,7 @@ void SharedJacobian<Real>::evaluate(StageEquations<Real>& eq, const Mat<Real>& W
     ++counters_.jacobians;
     const auto point = [&] {
       if (point_ == JacobianPoint::kPredicted) return eq.predicted(W);
-      return point_ == JacobianPoint::kMiddle ? eq.middle() : eq.start();
+      return point_ == JacobianPoint::kMiddle ? eq.middle(middle_) : eq.start();
     };
     differentiator_.evaluate(Level::kFormulated, point(), at_.front());
   }
@@ -108,20 +109,15 @@ Outcome NewtonMatrix<Real>::prepare(const Real& h) {
 }
 
 template <class Real>
-StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, bool used,
-                                       Counters& counters)
-    : shared_(shared),
-      setup_(std::move(setup)),
-      used_(used),
-      counters_(counters),
-      at_(static_cast<std::size_t>(setup_.A.rows())) {
+StagewiseMatrix<Real>::StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, Counters& counters)
+    : shared_(shared), setup_(std::move(setup)), counters_(counters), at_(static_cast<std::size_t>(setup_.A.rows())) {
   reserve();
 }
 
 template <class Real>
 void StagewiseMatrix<Real>::reserve() {
   const auto& pattern = shared_.differentiator().pattern();
-  if (!used_ || !pattern || sameShape(pattern, setup_.pattern)) return;
+  if (!pattern || sameShape(pattern, setup_.pattern)) return;
   if (pattern->full && setup_.A.rows() * pattern->n > kEagerSize) return;
   at_.assign(at_.size(), Linearization<Real>(pattern));
   adopt(pattern);

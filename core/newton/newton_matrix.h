@@ -49,6 +49,7 @@ class SharedJacobian {
   Differentiator<Real> differentiator_;
   std::vector<Linearization<Real>> at_;
   JacobianPoint point_;
+  State<Real> middle_;  // of the step, where that is the point
   Counters& counters_;
   Real t_{};
   int version_ = 0;
@@ -93,8 +94,7 @@ class NewtonMatrix {
 template <class Real>
 class StagewiseMatrix {
  public:
-  /// `used`: whether the Newton method uses it, at least as a last resort.
-  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, bool used, Counters& counters);
+  StagewiseMatrix(SharedJacobian<Real>& shared, StageSolverSetup<Real> setup, Counters& counters);
 
   /// Allocates in advance what the first use would, unless it is large and dense or the pattern is unknown.
   void reserve();
@@ -107,7 +107,6 @@ class StagewiseMatrix {
 
   SharedJacobian<Real>& shared_;
   StageSolverSetup<Real> setup_;
-  bool used_;
   Counters& counters_;
   std::vector<Linearization<Real>> at_;
   std::unique_ptr<CountedStageSolver<Real>> solver_;

@@ -44,9 +44,9 @@ class ResidualNewton : public NewtonBase<Real> {
     for (int i = 1; i <= limit; ++i) {
       ++result.iterations;
       ++c.counters.newton_iterations;
-      result.outcome = jacobian == kStagewise ? c.stagewise.prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
+      result.outcome = jacobian == kStagewise ? c.stagewise->prepare(c.eq, W) : c.matrix.prepare(c.eq.h());
       if (result.outcome != Outcome::kSuccess) return result;
-      const double norm = jacobian == kStagewise ? this->update(c, c.stagewise, W) : this->update(c, c.matrix, W);
+      const double norm = jacobian == kStagewise ? this->update(c, *c.stagewise, W) : this->update(c, c.matrix, W);
       if (!std::isfinite(norm) || !this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       const double previous = eps;
       eps = residualNorm();
@@ -92,7 +92,7 @@ class ModifiedNewton : public ResidualNewton<Real> {
     this->begin(c, W);
     auto& shared = c.matrix.shared();
     this->refresh(c, W);
-    if (full_at_last_) c.stagewise.reserve();
+    if (full_at_last_) c.stagewise->reserve();
     const bool had_old = !shared.evaluatedAt(c.eq.from().t);
     NewtonResult result = this->iterate(c, W, Base::kKept);
     if (result.outcome != Outcome::kSuccess && had_old) {

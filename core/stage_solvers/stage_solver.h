@@ -1,6 +1,7 @@
 // The linear systems of Newton's method: block (i, j) = delta_ij D0 + h A_ij D1 + h^2 (A^2)_ij D2.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <span>
@@ -22,7 +23,7 @@ template <class Real>
 struct StageSolverSetup {
   Mat<Real> A;  ///< of the implicit stages, s x s
   std::shared_ptr<const Pattern> pattern;
-  std::vector<int> row_powers;  ///< row i of every block is multiplied by h^-power[i]
+  std::span<const int> row_powers;  ///< of the system: row i of every block is multiplied by h^-power[i]
   Sizes sizes;
   int threads = 1;  ///< for factorizations and solutions of independent blocks
   /// Of the pattern, where it is sparse, and of A; each made anew where it is missing.
@@ -110,9 +111,13 @@ class CountedStageSolver {
   Counters& counters_;
 };
 
+/// Whether any row is multiplied by a power of h.
+inline bool scalesRows(std::span<const int> powers) {
+  return std::any_of(powers.begin(), powers.end(), [](int power) { return power != 0; });
+}
 /// h^-power per row.
 template <class Real>
-void rowScales(const std::vector<int>& powers, const Real& h, Vec<Real>& scales) {
+void rowScales(std::span<const int> powers, const Real& h, Vec<Real>& scales) {
   for (std::size_t i = 0; i < powers.size(); ++i) {
     Real f(1);
     for (int p = 0; p < powers[i]; ++p) f = f / h;

@@ -71,19 +71,17 @@ StageEquations<Real>::StageEquations(const System<Real>& system, const Scheme<Re
       sizes_(system.sizes()),
       threads_(threads),
       inner_(scheme.first),
+      scaled_(scalesRows(system.rowPowers())),
       uses_velocity_(system.usesVelocity()),
       U_(sizes_.nu, scheme.s),
       V_(sizes_.nu, scheme.s),
       X_(sizes_.nx, scheme.s),
       hA_(scheme.s, scheme.s),
-      hhA2_(scheme.s, scheme.s),
-      hA1_(scheme.s),
+      hhA2_(sizes_.nu > 0 ? scheme.s : 0, scheme.s),
+      hA1_(hhA2_.rows()),
       t_(scheme.s),
-      scales_(sizes_.n()),
-      middle_(sizes_) {
+      scales_(scaled_ ? sizes_.n() : 0) {
   if (!uses_velocity_) V_.setConstant(std::numeric_limits<Real>::quiet_NaN());
-  const auto& powers = system.rowPowers();
-  scaled_ = std::any_of(powers.begin(), powers.end(), [](int p) { return p != 0; });
   const auto away = [&](Index i) { return std::abs(static_cast<double>(scheme.c[i]) - kInner); };
   for (Index i = inner_; i < scheme.s; ++i) {
     if (away(i) < away(inner_)) inner_ = i;
@@ -165,14 +163,14 @@ Point<Real> StageEquations<Real>::predicted(const Mat<Real>& W) {
 }
 
 template <class Real>
-Point<Real> StageEquations<Real>::middle() {
+Point<Real> StageEquations<Real>::middle(State<Real>& at) const {
   const Real half = h_ / Real(2);
-  middle_ = *from_;
-  middle_.t += half;
-  middle_.u += half * from_->v + (half * half / Real(2)) * from_->a();
-  middle_.v += half * from_->a();
-  middle_.x += half * from_->k();
-  return pointOf(middle_);
+  at = *from_;
+  at.t += half;
+  at.u += half * from_->v + (half * half / Real(2)) * from_->a();
+  at.v += half * from_->a();
+  at.x += half * from_->k();
+  return pointOf(at);
 }
 
 template <class Real>

@@ -28,9 +28,10 @@ class StageEquations {
   /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives. Where the
   /// residual does not depend on v, this is the v of the start.
   Point<Real> stage(const Mat<Real>& W, Index i) const;
-  /// Points for derivatives: the step's start, and its middle (u, v, x by Taylor's formula from the start).
+  /// Points for derivatives: the step's start, and its middle (u, v, x by Taylor's formula from the start), which is
+  /// written to `at`.
   Point<Real> start() const;
-  Point<Real> middle();
+  Point<Real> middle(State<Real>& at) const;
   /// The point of the stage nearest to 0.6 h, for the start values W.
   Point<Real> predicted(const Mat<Real>& W);
 
@@ -60,7 +61,6 @@ class StageEquations {
   Mat<Real> hA_, hhA2_;  // (h A)^T and (h^2 A^2)^T
   Vec<Real> hA1_, t_;
   Vec<Real> scales_;
-  State<Real> middle_;
 };
 
 }  // namespace irk

@@ -50,8 +50,9 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, c
       threads_(options.threads),
       eq_(system, scheme, options.summation, options.threads),
       matrix_(jacobian, options.solver, setupOf(system, scheme, options), counters),
-      stagewise_(jacobian, setupOf(system, scheme, options),
-                 catalogue<NewtonKind>()[options.newton.kind].uses_stage_matrices, counters),
+      stagewise_(catalogue<NewtonKind>()[options.newton.kind].uses_stage_matrices
+                     ? std::make_unique<StagewiseMatrix<Real>>(jacobian, setupOf(system, scheme, options), counters)
+                     : nullptr),
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
       start_values_(options.predictor, scheme),
@@ -74,7 +75,7 @@ void Stepper<Real>::solve(const State<Real>& from, const Real& h, JacobianUse us
   // iteration would end after one correction with the Jacobian of another mode.
   if (modes_) newton_->forget();
   start_values_.fill(*past_, from, h, W_);
-  NewtonContext<Real> context{eq_, matrix_, stagewise_, norm_, counters_, use};
+  NewtonContext<Real> context{eq_, matrix_, stagewise_.get(), norm_, counters_, use};
   const NewtonResult newton = newton_->solve(context, W_);
   result.newton_iterations += newton.iterations;
   result.theta = std::max(result.theta, newton.theta);

@@ -56,7 +56,7 @@ class Stepper final : private StepRepeater<Real> {
   int threads_;
   StageEquations<Real> eq_;
   NewtonMatrix<Real> matrix_;
-  StagewiseMatrix<Real> stagewise_;
+  std::unique_ptr<StagewiseMatrix<Real>> stagewise_;  // null: the Newton method does not use it
   std::unique_ptr<Newton<Real>> newton_;
   const ErrorNorm<Real>& norm_;
   StartValues<Real> start_values_;

@@ -37,7 +37,7 @@ struct SolvedStepOf {
         norm(*system, options.tolerances, {}),
         jacobian(*system, scheme, options, counters),
         stepper(*system, scheme, options, jacobian, norm, counters),
-        estimate(*system, scheme, options, jacobian, stepper.matrix(), norm, counters),
+        estimate(*system, scheme, options, stepper.matrix(), norm, counters),
         defect(estimate, scheme, system->sizes(), Defect<double>::Start::kLeaveOut, options.step.looks),
         points(scheme, options.step.looks) {}
 

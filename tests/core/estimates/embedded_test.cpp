@@ -48,7 +48,7 @@ class OneStep {
         norm_(*system_, {0, 1e-12, NormKind::kAbsolute}, {}),
         jacobian_(*system_, scheme_, options_, counters_),
         stepper_(*system_, scheme_, options_, jacobian_, norm_, counters_),
-        estimate_(*system_, scheme_, options_, jacobian_, stepper_.matrix(), norm_, counters_),
+        estimate_(*system_, scheme_, options_, stepper_.matrix(), norm_, counters_),
         start_(start),
         end_(system_->sizes()) {
     norm_.update(start_);

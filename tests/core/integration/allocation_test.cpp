@@ -66,6 +66,25 @@ TEST(Allocation, TheCounterSeesAnAllocation) {
   EXPECT_GE(allocations, 2);
 }
 
+// The constructor takes as long as ten steps of a small system, half of it for memory.
+TEST(Allocation, ConstructorsOfSmallSystemsAllocateLittle) {
+  const Scene<double> scene = makeScene<double>("van_der_pol");
+  const auto system = scene.system({});
+  IntegratorOptions o = adaptive(1e-4);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  const auto allocationsOfConstructor = [&](const Methods<double>& methods) {
+    const Integrator<double> first(system, methods, o);  // makes what the process keeps
+    allocations = 0;
+    counting = true;
+    const Integrator<double> second(system, methods, o);
+    counting = false;
+    return allocations;
+  };
+  EXPECT_LE(allocationsOfConstructor(makeTableau<double>("radau_iia_3")), 125);
+  o.order = OrderControl::kVariable;
+  EXPECT_LE(allocationsOfConstructor(makeMethods<double>("radau_iia", 13, 3)), 180);
+}
+
 TEST(Allocation, StepsAllocateNothing) {
   for (const auto& solver : named<StageSolverKind>()) {
     for (const auto& newton : named<NewtonKind>()) {

@@ -121,9 +121,10 @@ TEST(StageSolver, SolvesTheMatrixWrittenOut) {
 TEST(StageSolver, SingularAndNotFiniteAreOutcomes) {
   const Sizes sizes{.nu = 0, .nx = 1, .nz = 1, .constraints = 0};
   const auto tableau = makeTableau<double>("radau_iia_2");
+  const std::vector<int> powers(2, 0);
   for (const auto& kind : named<StageSolverKind>()) {
     Linearization<double> D(Pattern::dense(2));
-    const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, {0, 0}, sizes});
+    const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, powers, sizes});
     EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kSingular) << kind.id;
     D.d0.setConstant(std::nan(""));
     EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kNotFinite) << kind.id;
@@ -132,8 +133,9 @@ TEST(StageSolver, SingularAndNotFiniteAreOutcomes) {
 
 TEST(StageSolver, EigenRefusesADefectiveTableau) {
   const auto tableau = makeTableau<double>("lobatto_iiics_3");
+  const std::vector<int> powers(1, 0);
   try {
-    makeStageSolver<double>(StageSolverKind::kEigen, {tableau.A, Pattern::dense(1), {0}, Sizes{.nu = 0, .nx = 1}});
+    makeStageSolver<double>(StageSolverKind::kEigen, {tableau.A, Pattern::dense(1), powers, Sizes{.nu = 0, .nx = 1}});
     FAIL() << "accepted";
   } catch (const Misuse& misuse) {
     EXPECT_NE(std::string(misuse.what()).find("defective"), std::string::npos);
