@@ -6,9 +6,7 @@
 #include <map>
 #include <ostream>
 
-#include "core/base/text.h"
 #include "experiments/base/failure.h"
-#include "experiments/base/freed_memory.h"
 #include "experiments/commands/arguments.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/shell.h"
@@ -334,7 +332,6 @@ int runProgram(const std::vector<std::string>& arguments, Streams streams) {
   int status = 0;
   const own::ReportTo report(streams.err);
   const own::ExitGuard guard;
-  keepFreedMemory();
   try {
     runRegistrations("");
     status = Program().run(arguments, streams);
