@@ -45,6 +45,9 @@ class Program {
   }
 
   int run(std::vector<std::string> arguments, Streams streams) {
+    if (!arguments.empty() && arguments.front() == "complete") {
+      return printNextWords(app_, {arguments.begin() + 1, arguments.end()}, streams.out);
+    }
     refuseEmpty(arguments);
     replaceHelpVerb(arguments);
     requireKnownVerb(app_, arguments, 0);
@@ -304,7 +307,7 @@ class Program {
 
   void addShell() {
     auto* completion = verb(app_, "completion", "a script for the shell that completes verbs, options and their values",
-                            [this](Streams s) { return printCompletion(app_, shell_, s.out), 0; });
+                            [this](Streams s) { return printCompletion(shell_, s.out), 0; });
     completion->add_option("shell", shell_, "bash, zsh or fish")->required();
     verb(app_, "man", "this help as a manual page (roff)", [this](Streams s) { return printManual(app_, s.out), 0; });
   }

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <vector>
 
 #include "core/base/text.h"
+#include "experiments/base/streams.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/builtin_studies.h"
@@ -81,7 +81,7 @@ std::string nameOf(const CLI::Option& option) {
 /// The values that an option or argument takes.
 struct Values {
   Words words;
-  bool files = false;  ///< file names are offered as well, or if there are no words
+  bool files = false;  ///< file names are offered as well
 };
 
 Values valuesOf(const CLI::Option& option) {
@@ -122,95 +122,40 @@ Parts partsOf(const CLI::App& verb) {
   return parts;
 }
 
-void printBash(const CLI::App& program, std::ostream& out) {
-  Words first;
-  std::map<std::string, Words> second;
-  for (const Verb& verb : verbsOf(program)) {
-    const std::size_t blank = verb.name.find(' ');
-    const std::string name = verb.name.substr(0, blank);
-    if (std::find(first.begin(), first.end(), name) == first.end()) first.push_back(name);
-    if (blank != std::string::npos) second[name].push_back(verb.name.substr(blank + 1));
-  }
-  fmt::print(out, "_irk() {{\n  local words verb=${{COMP_WORDS[1]}} cur=${{COMP_WORDS[COMP_CWORD]}} at=2\n");
-  for (const auto& [name, inner] : second) {
-    fmt::print(out, "  if [[ $verb == {0} ]]; then verb=\"{0} ${{COMP_WORDS[2]}}\"; at=3; fi\n", name);
-  }
-  fmt::print(out, "  if (( COMP_CWORD == 1 )); then words='{}'\n", fmt::join(first, " "));
-  for (const auto& [name, inner] : second) {
-    fmt::print(out, "  elif (( COMP_CWORD == 2 && at == 3 )); then words='{}'\n", fmt::join(inner, " "));
-  }
-  fmt::print(out, "  else\n    case \"$verb ${{COMP_WORDS[COMP_CWORD - 1]}}\" in\n");
-  for (const Verb& verb : verbsOf(program)) {
-    for (const CLI::Option* option : partsOf(*verb.app).options) {
-      const Words words = valuesOf(*option).words;
-      if (words.empty()) continue;
-      fmt::print(out, "      '{} {}') words='{}';;\n", verb.name, nameOf(*option), fmt::join(words, " "));
-    }
-  }
-  fmt::print(out, "      *) case \"$verb\" in\n");
-  for (const Verb& verb : verbsOf(program)) {
-    Words arguments, options;
-    const Parts parts = partsOf(*verb.app);
-    for (const CLI::Option* option : parts.options) options.push_back(nameOf(*option));
-    for (const CLI::Option* argument : parts.arguments) {
-      for (auto& word : valuesOf(*argument).words) arguments.push_back(std::move(word));
-    }
-    fmt::print(out, "        '{}') if [[ $cur == -* ]]; then words='{}'; else words='{}'; fi;;\n", verb.name,
-               fmt::join(options, " "), fmt::join(arguments, " "));
-  }
-  fmt::print(out,
-             "      esac;;\n    esac\n  fi\n  COMPREPLY=( $(compgen -W \"$words\" -- \"$cur\") )\n}}\n"
-             "complete -o default -F _irk irk ./irk\n");
+// The completion asks the command as the user has typed it. Bash does not expand its tilde.
+constexpr std::string_view kBash = R"(_irk() {
+  local program=${COMP_WORDS[0]/#\~/$HOME}
+  local words=$("$program" complete "${COMP_WORDS[@]:1:$COMP_CWORD}" 2>/dev/null | cut -f1)
+  COMPREPLY=( $(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}") )
+}
+complete -o default -F _irk irk ./irk
+)";
+constexpr std::string_view kZsh = R"((( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }
+autoload -Uz bashcompinit && bashcompinit
+)";
+constexpr std::string_view kFish = R"(function __irk
+  set -l typed (commandline -ct)
+  set -l words (commandline -opc) "$typed"
+  $words[1] complete $words[2..-1] 2>/dev/null; and __fish_complete_path "$typed"
+end
+complete -c irk -f -a '(__irk)'
+)";
+
+// A word and, behind a tab, the first sentence of its description.
+void printWord(const std::string& word, const std::string& description, std::ostream& out) {
+  const auto end = std::min(description.find(". "), description.find(" ["));
+  fmt::print(out, "{}\t{}\n", word, description.substr(0, end));
 }
 
-std::string fishQuoted(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\'' || text[i] == '\\') text.insert(i++, 1, '\\');
+// Returns 0 if a file may stand there as well, else 1.
+int printValues(const std::vector<const CLI::Option*>& options, std::ostream& out) {
+  bool files = false;
+  for (const CLI::Option* option : options) {
+    const Values values = valuesOf(*option);
+    files = files || values.files;
+    for (const auto& word : values.words) printWord(word, "", out);
   }
-  return '\'' + text + '\'';
-}
-
-// The first sentence: shells show one line.
-std::string shortened(const std::string& description) {
-  return fishQuoted(description.substr(0, std::min(description.find(". "), description.find(" ["))));
-}
-
-void printFishOption(const CLI::Option& option, const std::string& when, std::ostream& out) {
-  const std::string name = nameOf(option);
-  const bool is_long = name.starts_with("--");
-  fmt::print(out, "complete -c irk -n '{}' {} {} -d {}", when, is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1),
-             shortened(option.get_description()));
-  const Values values = valuesOf(option);
-  if (option.get_items_expected_max() > 0) out << (values.files ? " -r -F" : " -x");
-  if (!values.words.empty()) fmt::print(out, " -a '{}'", fmt::join(values.words, " "));
-  out << '\n';
-}
-
-void printFish(const CLI::App& program, std::ostream& out) {
-  for (const CLI::App* sub : program.get_subcommands({})) {
-    fmt::print(out, "complete -c irk -n __fish_use_subcommand -f -a {} -d {}\n", sub->get_name(),
-               fishQuoted(sub->get_description()));
-  }
-  for (const Verb& verb : verbsOf(program)) {
-    const std::size_t blank = verb.name.find(' ');
-    std::string when = "__fish_seen_subcommand_from " + verb.name.substr(0, blank);
-    if (blank != std::string::npos) {
-      const std::string inner = verb.name.substr(blank + 1);
-      fmt::print(out, "complete -c irk -n '{}; and test (count (commandline -opc)) -eq 2' -f -a {} -d {}\n", when,
-                 inner, fishQuoted(verb.app->get_description()));
-      when += "; and __fish_seen_subcommand_from " + inner;
-    }
-    const Parts parts = partsOf(*verb.app);
-    bool files = false;
-    Words words;
-    for (const CLI::Option* argument : parts.arguments) {
-      Values values = valuesOf(*argument);
-      files = files || values.files;
-      words.insert(words.end(), values.words.begin(), values.words.end());
-    }
-    fmt::print(out, "complete -c irk -n '{}'{} -a '{}'\n", when, files ? "" : " -f", fmt::join(words, " "));
-    for (const CLI::Option* option : parts.options) printFishOption(*option, when, out);
-  }
+  return files ? 0 : kFailedStatus;
 }
 
 // Text of roff: no line begins with a control character, and dashes are those of the keyboard.
@@ -274,15 +219,32 @@ std::string examplesOf(const std::string& verb) {
   return found == examples.end() ? "" : found->second;
 }
 
-void printCompletion(const CLI::App& program, const std::string& shell, std::ostream& out) {
+void printCompletion(const std::string& shell, std::ostream& out) {
   const Words shells{"bash", "zsh", "fish"};
   if (std::find(shells.begin(), shells.end(), shell) == shells.end()) throw Misuse(unknownName("shell", shell, shells));
-  if (shell == "fish") return printFish(program, out);
-  if (shell == "zsh") {
-    out << "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit; }\n"
-           "autoload -Uz bashcompinit && bashcompinit\n";
+  if (shell == "zsh") out << kZsh;
+  out << (shell == "fish" ? kFish : kBash);
+}
+
+int printNextWords(const CLI::App& program, std::vector<std::string> words, std::ostream& out) {
+  if (words.empty()) words.emplace_back();
+  const CLI::App* verb = &program;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    for (const CLI::App* inner : verb->get_subcommands({})) {
+      if (inner->get_name() == words[i]) verb = inner;
+    }
   }
-  printBash(program, out);
+  const Parts parts = partsOf(*verb);
+  const std::string before = words.size() > 1 ? words[words.size() - 2] : "";
+  for (const CLI::Option* option : parts.options) {
+    if (nameOf(*option) == before && option->get_items_expected_max() > 0) return printValues({option}, out);
+  }
+  if (words.back().starts_with('-')) {
+    for (const CLI::Option* option : parts.options) printWord(nameOf(*option), option->get_description(), out);
+    return kFailedStatus;
+  }
+  for (const CLI::App* inner : verb->get_subcommands({})) printWord(inner->get_name(), inner->get_description(), out);
+  return printValues(parts.arguments, out);
 }
 
 void printManual(const CLI::App& program, std::ostream& out) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -14,9 +15,11 @@
 namespace irk {
 namespace {
 
+// Of a command of the shell, which finds `irk` in its PATH.
 std::string outputOf(const std::string& command) {
+  const std::string folder = std::filesystem::path(IRK_PROGRAM).parent_path();
   std::string text;
-  FILE* const pipe = popen(command.c_str(), "r");
+  FILE* const pipe = popen(("export PATH=" + folder + ":$PATH; " + command).c_str(), "r");
   std::array<char, 4096> buffer{};
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
   EXPECT_EQ(pclose(pipe), 0) << command;
@@ -52,6 +55,24 @@ TEST_F(Completion, OffersVerbsOptionsAndValues) {
   EXPECT_TRUE(containsAll(offered({"irk", "tableau", ""}), {" show ", " check "}));
   EXPECT_TRUE(containsAll(offered({"irk", "tableau", "show", "gauss_3"}), {" gauss_3 "}));
   EXPECT_EQ(offered({"irk", "tableau", "show", "--d"}), " --digits \n");
+  EXPECT_EQ(offered({IRK_PROGRAM, "tableau", "show", "--d"}), " --digits \n") << "a program that is not in PATH";
+}
+
+// What a script asks: a word a line, its description behind a tab; status 0 where a file may stand as well.
+TEST_F(Completion, AsksTheProgram) {
+  const Ended verbs = program({"complete"}), same = program({"complete", ""});
+  EXPECT_TRUE(containsAll(verbs.out, {"solve\tone integration\n", "man\t"})) << verbs.out;
+  EXPECT_EQ(verbs.out, same.out);
+  EXPECT_EQ(verbs.status, 1);
+  EXPECT_EQ(program({"complete", "new", ""}).out, "scene\t\n");
+  const Ended method = program({"complete", "solve", "kepler", "--method", ""});
+  EXPECT_TRUE(containsAll(method.out, {"\nradau_iia_5\t\n", "\ncvode_bdf\t\n"})) << method.out;
+  EXPECT_EQ(method.status, 0) << "a tableau file";
+  const Ended options = program({"complete", "tableau", "show", "-"});
+  EXPECT_TRUE(containsAll(options.out, {"--digits\t"})) << options.out;
+  const Ended number = program({"complete", "solve", "kepler", "--tol", ""});
+  EXPECT_EQ(number.out, "");
+  EXPECT_EQ(number.status, 1);
 }
 
 bool isInstalled(const std::string& shell) { return std::system(("command -v " + shell + " >/dev/null").c_str()) == 0; }
