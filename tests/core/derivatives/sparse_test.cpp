@@ -8,6 +8,7 @@
 #include "core/system/counting.h"
 #include "irk/scene.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -307,12 +308,8 @@ TEST(Sparse, ThreadsOnPartsOfLongVectorsChangeNoBit) {
 
 template <class F>
 void expectMisuse(const char* words, const F& f) {
-  try {
-    f();
-    FAIL() << "accepted, not: " << words;
-  } catch (const Misuse& misuse) {
-    EXPECT_NE(std::string(misuse.what()).find(words), std::string::npos) << misuse.what();
-  }
+  const auto message = refusal(f);
+  EXPECT_NE(message.find(words), std::string::npos) << "'" << message << "', not: " << words;
 }
 
 TEST(Sparse, IllegalCombinationsAreRefused) {

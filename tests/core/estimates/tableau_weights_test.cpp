@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "irk/misuse.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -124,12 +124,9 @@ TEST(TableauWeights, EstimateConstrainedMotions) {
 }
 
 void expectRefusal(const Tableau<double>& method, const std::string& reason) {
-  try {
-    Integrator<double> refused(makeSystem<double>(Riccati{}), method, withWeights(1e-6));
-    ADD_FAILURE() << method.id;
-  } catch (const Misuse& misuse) {
-    EXPECT_NE(std::string(misuse.what()).find(reason), std::string::npos) << misuse.what();
-  }
+  const auto message =
+      refusal([&] { Integrator<double> refused(makeSystem<double>(Riccati{}), method, withWeights(1e-6)); });
+  EXPECT_NE(message.find(reason), std::string::npos) << method.id << ": " << message;
 }
 TEST(TableauWeights, AreRefusedByNameWhereThereAreNone) {
   expectRefusal(makeTableau<double>("radau_iia_3"), "estimate 'tableau' with method 'radau_iia_3': it has no embedded");

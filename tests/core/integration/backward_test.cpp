@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "irk/error_bar.h"
 #include "irk/integrator.h"
-#include "irk/misuse.h"
 #include "irk/tableaus.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -239,12 +238,7 @@ TEST(Backward, RefusesWhatCannotBeUndone) {
       start.t = 2;
       Integrator<double> integrator(makeSystem<double>(one.problem, {formulation}), makeTableau<double>("radau_iia_5"),
                                     adaptive(1e-6));
-      std::string message;
-      try {
-        EXPECT_EQ(integrator.integrate(start, 0).outcome, Outcome::kSuccess);
-      } catch (const Misuse& misuse) {
-        message = misuse.what();
-      }
+      const auto message = refusal([&] { EXPECT_EQ(integrator.integrate(start, 0).outcome, Outcome::kSuccess); });
       EXPECT_EQ(message.empty(), *one.message == 0) << message;
       EXPECT_NE(message.find(one.message), std::string::npos) << message;
       EXPECT_EQ(integrator.integrate(start, 3).outcome, Outcome::kSuccess) << "forward";

@@ -3,6 +3,7 @@
 
 #include "irk/multiprecision.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -172,14 +173,8 @@ TEST(Integrator, TheStartGetsItsAccelerationsAndMultiplier) {
 }
 
 void expectRefused(const std::function<void()>& build, const std::vector<std::string>& words) {
-  try {
-    build();
-    FAIL() << "accepted";
-  } catch (const Misuse& misuse) {
-    for (const auto& word : words) {
-      EXPECT_NE(std::string(misuse.what()).find(word), std::string::npos) << misuse.what();
-    }
-  }
+  const auto message = refusal(build);
+  for (const auto& word : words) EXPECT_NE(message.find(word), std::string::npos) << message;
 }
 
 TEST(Integrator, IllegalCombinationsAreRefused) {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "irk/misuse.h"
 #include "irk/multiprecision.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -48,12 +48,9 @@ template <class P>
 std::string refusalOfRun(const P& problem, double t_end, Formulation formulation = Formulation::kIndex2) {
   State<double> start(problem.sizes());
   start.x[0] = 1;
-  try {
+  return refusal([&] {
     (void)integrate<double>(problem, start, t_end, makeTableau<double>("radau_iia_3"), adaptive(1e-4), formulation);
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return {};
+  });
 }
 
 TEST(MemoryCheck, AHistoryInTheProblemIsRefused) {

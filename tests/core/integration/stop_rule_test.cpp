@@ -6,9 +6,9 @@
 
 #include "irk/error_bar.h"
 #include "irk/integrator.h"
-#include "irk/misuse.h"
 #include "irk/problem.h"
 #include "irk/tableaus.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -56,12 +56,7 @@ struct Fall {
   }
   Solution<double> to(double t_end) const { return integrator().integrate(start(), t_end); }
   std::string refusal() const {
-    try {
-      static_cast<void>(integrator());
-    } catch (const Misuse& misuse) {
-      return misuse.what();
-    }
-    return "";
+    return irk::refusal([&] { static_cast<void>(integrator()); });
   }
 };
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/system/reversed.h"
-#include "irk/misuse.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -99,12 +99,8 @@ struct WithoutMode {
 };
 
 TEST(CompletedSteps, AreRefusedBackwardInTime) {
-  try {
-    const ReversedSystem<double> system(makeSystem<double>(WithoutMode{}));
-    FAIL();
-  } catch (const Misuse& misuse) {
-    EXPECT_NE(std::string(misuse.what()).find("completeStep"), std::string::npos) << misuse.what();
-  }
+  const auto message = refusal([] { const ReversedSystem<double> system(makeSystem<double>(WithoutMode{})); });
+  EXPECT_NE(message.find("completeStep"), std::string::npos) << message;
 }
 
 TEST(CompletedSteps, AreCompletedWithFixedStepsToo) {

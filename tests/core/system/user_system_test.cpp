@@ -8,21 +8,13 @@
 
 #include "irk/multiprecision.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-std::string misuseOf(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return "no misuse";
-}
 
 /// A problem with nothing but its sizes.
 struct Sized {
@@ -53,7 +45,7 @@ TEST(UserSystem, ImpossibleSizesAreRefused) {
                         {{.nu = 1, .discrete = 1, .switches = 1}, "no function switching"}};
   for (const auto& [n, message] : cases) {
     for (const auto formulation : {Formulation::kIndex2, Formulation::kGgl, Formulation::kFirstOrder}) {
-      const auto text = misuseOf([&, sizes = n] { (void)makeSystem<double>(Sized{sizes}, {formulation}); });
+      const auto text = refusal([&, sizes = n] { (void)makeSystem<double>(Sized{sizes}, {formulation}); });
       EXPECT_NE(text.find(message), std::string::npos) << message << ": " << text;
     }
   }
@@ -87,7 +79,7 @@ TEST(UserSystem, StartsOfOtherSizesAreRefused) {
     for (const auto& [part, reshape] : kReshaped) {
       auto start = pendulumStart<double>();
       reshape(start);
-      const auto text = misuseOf([&] { (void)integrator.integrate(start, 0.1); });
+      const auto text = refusal([&] { (void)integrator.integrate(start, 0.1); });
       EXPECT_NE(text.find(std::string("start: ") + part), std::string::npos) << idOf(formulation) << ": " << text;
     }
     EXPECT_EQ(integrator.integrate(pendulumStart<double>(), 0.1).outcome, Outcome::kSuccess) << idOf(formulation);
@@ -121,12 +113,12 @@ TEST(UserSystem, StartsThatAreNotFiniteEndBeforeTheFirstStep) {
 TEST(UserSystem, TimesAreFiniteAndInOrder) {
   Integrator<double> integrator(makeSystem<double>(Riccati{}), makeTableau<double>("radau_iia_3"), adaptive(1e-6));
   for (const double end : {kInfinity, kNan, -kInfinity}) {
-    const auto text = misuseOf([&] { (void)integrator.integrate(riccatiStart<double>(), end); });
+    const auto text = refusal([&] { (void)integrator.integrate(riccatiStart<double>(), end); });
     EXPECT_NE(text.find("t_end = "), std::string::npos) << end << text;
   }
   auto start = riccatiStart<double>();
   start.t = -kInfinity;
-  EXPECT_NE(misuseOf([&] { (void)integrator.integrate(start, 1.0); }).find("start: t = -inf"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)integrator.integrate(start, 1.0); }).find("start: t = -inf"), std::string::npos);
   EXPECT_EQ(integrator.integrate(riccatiStart<double>(), 0.0).outcome, Outcome::kSuccess) << "no time at all";
 }
 
@@ -167,13 +159,13 @@ class Handmade : public System<double> {
 };
 
 std::string refused(const std::shared_ptr<const System<double>>& system, const Vec<double>& scale = {}) {
-  return misuseOf([&] { Integrator<double>(system, makeTableau<double>("radau_iia_3"), adaptive(1e-6), scale); });
+  return refusal([&] { Integrator<double>(system, makeTableau<double>("radau_iia_3"), adaptive(1e-6), scale); });
 }
 
 TEST(UserSystem, SystemsMadeByHandAreChecked) {
   const auto good = std::make_shared<Handmade>();
-  EXPECT_EQ(refused(good), "no misuse");
-  EXPECT_EQ(refused(good, Vec<double>::Constant(1, 2)), "no misuse");
+  EXPECT_EQ(refused(good), "");
+  EXPECT_EQ(refused(good, Vec<double>::Constant(1, 2)), "");
   State<double> start(good->sizes());
   start.x[0] = 1;
   Integrator<double> integrator(good, makeTableau<double>("radau_iia_3"), adaptive(1e-8));
