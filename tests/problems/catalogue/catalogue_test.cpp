@@ -6,20 +6,11 @@
 #include <map>
 #include <set>
 
-#include "irk/misuse.h"
 #include "tests/problems/scene_cases.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
-
-std::string misuseOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
-  }
-  return "";
-}
 
 TEST(Catalogue, IsSortedWithUniqueIds) {
   const auto& entries = sceneCatalogue();
@@ -144,31 +135,31 @@ TEST(Catalogue, RatesHaveUnits) {
 }
 
 TEST(Catalogue, NamesTheNearestScene) {
-  const std::string message = misuseOf([] { makeScene<double>("slidercrank"); });
+  const std::string message = refusal([] { makeScene<double>("slidercrank"); });
   EXPECT_NE(message.find("did you mean 'slider_crank'"), std::string::npos) << message;
 }
 
 TEST(Catalogue, NamesTheNearestParameter) {
-  const std::string message = misuseOf([] { makeScene<double>("slider_crank", {{"coordinate", "minimal"}}); });
+  const std::string message = refusal([] { makeScene<double>("slider_crank", {{"coordinate", "minimal"}}); });
   EXPECT_NE(message.find("did you mean 'coordinates'"), std::string::npos) << message;
-  EXPECT_NE(misuseOf([] { makeScene<double>("hires", {{"k", "1"}}); }).find("no parameters"), std::string::npos);
+  EXPECT_NE(refusal([] { makeScene<double>("hires", {{"k", "1"}}); }).find("no parameters"), std::string::npos);
 }
 
 TEST(Catalogue, RefusesValuesOutOfRange) {
-  const std::string message = misuseOf([] { makeScene<BigFloat>("kepler", {{"e", "1.5"}}); });
+  const std::string message = refusal([] { makeScene<BigFloat>("kepler", {{"e", "1.5"}}); });
   EXPECT_NE(message.find("e = '1.5'"), std::string::npos) << message;
   EXPECT_NE(message.find("[0, 0.99]"), std::string::npos) << message;
 }
 
 TEST(Catalogue, RefusesWhatIsNoNumber) {
   for (const char* text : {"", "one", "1x", "nan", "inf"}) {
-    EXPECT_NE(misuseOf([&] { makeScene<double>("stick_slip", {{"k", text}}); }), "") << text;
+    EXPECT_NE(refusal([&] { makeScene<double>("stick_slip", {{"k", text}}); }), "") << text;
   }
-  EXPECT_NE(misuseOf([] { makeScene<double>("ancf_pendulum", {{"elements", "2.5"}}); }), "");
+  EXPECT_NE(refusal([] { makeScene<double>("ancf_pendulum", {{"elements", "2.5"}}); }), "");
 }
 
 TEST(Catalogue, RefusesUnknownWords) {
-  const std::string message = misuseOf([] { makeScene<double>("hydraulic_arm", {{"reference", "smoth"}}); });
+  const std::string message = refusal([] { makeScene<double>("hydraulic_arm", {{"reference", "smoth"}}); });
   EXPECT_NE(message.find("did you mean 'smooth'"), std::string::npos) << message;
 }
 
@@ -178,23 +169,23 @@ TEST(Catalogue, RefusesScalarsThatASceneDoesNotOffer) {
   EXPECT_NO_THROW(makeScene<BigFloat>(entry, {}));
   entry.id = "mine";
   entry.make_big_float = {};
-  const std::string message = misuseOf([&] { makeScene<BigFloat>(entry, {}); });
+  const std::string message = refusal([&] { makeScene<BigFloat>(entry, {}); });
   EXPECT_EQ(message.find("scalar = 'mp50': scene mine offers double; with mp50: "), 0U) << message;
-  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "");
+  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }), "");
   entry.make = {};
-  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }).find("scalar = 'double': scene mine offers none"), 0U);
+  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }).find("scalar = 'double': scene mine offers none"), 0U);
   entry.make = [](const Settings&) {
     auto scene = makeScene<double>("kepler");
     scene.system = {};
     return scene;
   };
-  EXPECT_EQ(misuseOf([&] { makeScene<double>(entry, {}); }), "scene mine makes no system");
+  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }), "scene mine makes no system");
 }
 
 TEST(Catalogue, DefaultsAreAllowedValues) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     for (const Parameter& p : entry.parameters) {
-      EXPECT_EQ(misuseOf([&] {
+      EXPECT_EQ(refusal([&] {
                   makeScene<double>(entry.id, {{p.name, p.default_value}});
                 }),
                 "")

@@ -5,6 +5,7 @@
 
 #include "irk/misuse.h"
 #include "irk/scene_file.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -180,12 +181,10 @@ TEST(SceneFrame, AStructMayMakeItsSceneItself) {
 
 TEST(SceneFrame, AParameterThatIsNoNumberIsRefused) {
   for (const char* value : {"abc", "", "3 m", "1e"}) {
-    try {
-      static_cast<void>(number<double>({{"k", value}}, "k"));
-      ADD_FAILURE() << "'" << value << "' is taken";
-    } catch (const Misuse& misuse) {
-      EXPECT_EQ(misuse.what(), "the parameter k = '" + std::string(value) + "' is not a number");
-    }
+    EXPECT_EQ(refusal([&] {
+                static_cast<void>(number<double>({{"k", value}}, "k"));
+              }),
+              "the parameter k = '" + std::string(value) + "' is not a number");
   }
   EXPECT_EQ(number<double>({{"k", "-2.5e-3"}}, "k"), -2.5e-3);
 }

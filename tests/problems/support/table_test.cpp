@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "irk/dual.h"
-#include "irk/misuse.h"
 #include "irk/multiprecision.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -27,12 +27,7 @@ class Tables : public testing::Test {
   }
   std::string refusal(const std::string& y = "M") const {
     const TableReadings readings(folder_.string());
-    try {
-      const TimeTable<double> table("torque.csv", "t", y);
-    } catch (const Misuse& misuse) {
-      return misuse.what();
-    }
-    return "";
+    return irk::refusal([&] { const TimeTable<double> table("torque.csv", "t", y); });
   }
 
   const std::filesystem::path folder_ =
