@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <sstream>
 
-#include "experiments/analyses/orders/orders.h"
-#include "experiments/analyses/results.h"
 #include "experiments/compare/folders.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
@@ -136,55 +135,54 @@ TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
   }
 }
 
+// The observed orders of a block.
+Table ordersOf(const std::string& block) { return orderTable(runsOf("orders = true\n[[block]]" + block).runs); }
+
+// Each row has the order that `expected` says of it, NaN for any, and agrees with theory.
+void expectOrders(const Table& orders, std::size_t rows, double tolerance,
+                  const std::function<double(const TableRow&)>& expected) {
+  ASSERT_EQ(orders.rows.size(), rows);
+  for (const auto& row : orders.rows) {
+    const double order = expected(row);
+    if (std::isnan(order)) continue;
+    EXPECT_NEAR(numberAt(orders, row, "order"), order, tolerance) << csvLine(row);
+    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << csvLine(row);
+  }
+}
+
 // Orders 40 and 39, from t_end / N with N = 18 to 36 and errors from 1e-86 to 1e-98. orderTolerance is 0.4 there, so
 // a difference of one order is detected.
 TEST(Runner, OrdersOfTwentyStagesInHundredDigits) {
-  const Table orders = orderTable(runsOf(R"(
-orders = true
-[[block]]
+  const Table orders = ordersOf(R"(
 scene = "riccati_tracking"
 scalar = "mp100"
 methods = ["gauss_20", "radau_iia_20"]
 refine_most = 40
-)")
-                                      .runs);
-  ASSERT_EQ(orders.rows.size(), 2u);
-  for (const auto& row : orders.rows) {
-    const double order = textAt(orders, row, "family") == "gauss" ? 40 : 39;
-    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.5) << textAt(orders, row, "reason");
-    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees");
-  }
+)");
+  expectOrders(orders, 2, 0.5, [&](const TableRow& row) { return textAt(orders, row, "family") == "gauss" ? 40 : 39; });
 }
 
 // The complete chain in 50 digits: planner, runs, fit, theory. Gauss in index 2 and 3 loses order in every component
 // but q, diverges in lambda, and regains its order by projection.
 TEST(Runner, OrdersOfAMechanicalSystemInFiftyDigits) {
-  const Table orders = orderTable(runsOf(R"(
-orders = true
-[[block]]
+  const Table orders = ordersOf(R"(
 scene = "mechanical_dae"
 scalar = "mp50"
 multipliers = "stages"
 formulation = ["index2", "index3", "index2_projected"]
 methods = ["gauss_2", "radau_iia_2"]
 refine_most = 128
-)")
-                                      .runs);
+)");
   const std::map<std::string, std::array<double, 3>> expected = {{"index2 gauss", {4, 2, 0}},
                                                                  {"index2 radau_iia", {3, 3, 2}},
                                                                  {"index3 gauss", {2, 0, -2}},
                                                                  {"index3 radau_iia", {3, 2, 1}},
                                                                  {"index2_projected gauss", {4, 4, NAN}},
                                                                  {"index2_projected radau_iia", {3, 3, 2}}};
-  ASSERT_EQ(orders.rows.size(), 18u);
-  for (const auto& row : orders.rows) {
+  expectOrders(orders, 18, 0.15, [&](const TableRow& row) {
     const auto name = textAt(orders, row, "formulation") + " " + textAt(orders, row, "family");
-    const auto place = std::string("uvz").find(textAt(orders, row, "component"));
-    const double order = expected.at(name).at(place);
-    if (std::isnan(order)) continue;
-    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.15) << name << " " << place;
-    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << name << " " << place;
-  }
+    return expected.at(name).at(std::string("uvz").find(textAt(orders, row, "component")));
+  });
 }
 
 // Where z has order 0 it jumps between steps, and simplified Newton fails in 50 digits. The study therefore uses
@@ -201,74 +199,48 @@ TEST(Runner, TheOrderStudyMeasuresIndex2WithFewStages) {
   const TemporaryFolder folder;
   std::ostringstream quiet;
   const Table orders = orderTable(runStudy(study, options(folder, 2), quiet));
-  ASSERT_EQ(orders.rows.size(), 4u);
-  for (const auto& row : orders.rows) {
-    const double order = textAt(orders, row, "component") == "x" ? 2 : 0;
-    EXPECT_NEAR(numberAt(orders, row, "order"), order, 0.1) << textAt(orders, row, "reason");
-    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees");
-  }
+  expectOrders(orders, 4, 0.1, [&](const TableRow& row) { return textAt(orders, row, "component") == "x" ? 2 : 0; });
 }
 
 // A lambda that is solved again at the end has the order of v, in the measurement and in the theoretical table.
 TEST(Runner, OrdersOfConsistentMultipliers) {
-  const Table orders = orderTable(runsOf(R"(
-orders = true
-[[block]]
+  const Table orders = ordersOf(R"(
 scene = "mechanical_dae"
 scalar = "mp50"
 formulation = ["index2", "index3"]
 multipliers = ["stages", "consistent"]
 methods = "radau_iia_2"
 refine_most = 128
-)")
-                                      .runs);
-  ASSERT_EQ(orders.rows.size(), 12u);
-  for (const auto& row : orders.rows) {
-    if (textAt(orders, row, "component") != "z") continue;
+)");
+  expectOrders(orders, 12, 0.15, [&](const TableRow& row) -> double {
+    if (textAt(orders, row, "component") != "z") return NAN;
     const int v = textAt(orders, row, "formulation") == "index2" ? 3 : 2;
-    const int stages = v - 1;
-    const bool consistent = textAt(orders, row, "multipliers") == "consistent";
-    EXPECT_NEAR(numberAt(orders, row, "order"), consistent ? v : stages, 0.15);
-    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << textAt(orders, row, "reason");
-  }
+    return textAt(orders, row, "multipliers") == "consistent" ? v : v - 1;
+  });
 }
 
 // The planner of steps divides an interval that ends before the start.
 TEST(Runner, OrdersBackwardInTime) {
-  const Table orders = orderTable(runsOf(R"(
-orders = true
-[[block]]
+  const Table orders = ordersOf(R"(
 scene = "riccati_tracking"
 scalar = "mp50"
 t_end = [1, -1]
 methods = ["gauss_2", "radau_iia_2"]
 refine_most = 64
-)")
-                                      .runs);
-  ASSERT_EQ(orders.rows.size(), 4u);
-  for (const auto& row : orders.rows) {
-    EXPECT_NEAR(numberAt(orders, row, "order"), textAt(orders, row, "family") == "gauss" ? 4 : 3, 0.15);
-    EXPECT_EQ(textAt(orders, row, "verdict"), "agrees") << textAt(orders, row, "reason");
-  }
+)");
+  expectOrders(orders, 4, 0.15, [&](const TableRow& row) { return textAt(orders, row, "family") == "gauss" ? 4 : 3; });
 }
 
 // With z = h lambda fixed: error = C h^3 / z for Radau IIA with two stages.
 TEST(Runner, PowersOfTheStepAndOfTheStiffness) {
-  const Table orders = orderTable(runsOf(R"(
-orders = true
-[[block]]
+  const Table orders = ordersOf(R"(
 scene = "prothero_robinson"
 scalar = "mp50"
 settings = ["lambda=-1e6/h", "lambda=-1e8/h", "lambda=-1e10/h"]
 methods = "radau_iia_2"
 refine_most = 64
-)")
-                                      .runs);
-  ASSERT_EQ(orders.rows.size(), 4u);
-  for (const auto& row : orders.rows) {
-    const bool of_z = textAt(orders, row, "power_of") == "z";
-    EXPECT_NEAR(numberAt(orders, row, "order"), of_z ? -1 : 3, 0.15);
-  }
+)");
+  expectOrders(orders, 4, 0.15, [&](const TableRow& row) { return textAt(orders, row, "power_of") == "z" ? -1 : 3; });
   EXPECT_EQ(textAt(orders, orders.rows.back(), "power_of"), "z");
 }
 
