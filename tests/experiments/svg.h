@@ -11,7 +11,6 @@
 #include <iterator>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>

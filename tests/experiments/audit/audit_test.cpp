@@ -1,24 +1,15 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 #include "experiments/audit/audit.h"
-#include "experiments/audit/bar_tables.h"
 #include "experiments/audit/coverage.h"
-#include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
-#include "experiments/report/report.h"
-#include "experiments/runner/runner.h"
-#include "experiments/runs/configurations.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/dice.h"
-#include "experiments/study/study_reader.h"
 #include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"

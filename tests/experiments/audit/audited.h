@@ -5,23 +5,15 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
-#include <set>
 #include <sstream>
 
-#include "experiments/audit/audit.h"
-#include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
-#include "experiments/report/report.h"
-#include "experiments/runner/runner.h"
 #include "experiments/runs/configurations.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/dice.h"
-#include "experiments/study/study_reader.h"
 #include "experiments/tables/table.h"
 #include "tests/experiments/study_runs.h"
 

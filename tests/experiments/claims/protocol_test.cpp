@@ -6,7 +6,7 @@
 
 #include "experiments/claims/claim.h"
 #include "experiments/claims/measurement.h"
-#include "experiments/report/report.h"
+#include "experiments/report/figure_list.h"
 #include "experiments/study/builtin_studies.h"
 #include "irk/scene.h"
 #include "tests/experiments/support.h"

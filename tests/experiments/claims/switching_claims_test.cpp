@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "experiments/claims/verdict.h"
 #include "tests/experiments/claim_tables.h"

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "experiments/runs/run_spec.h"
 #include "irk/scene.h"

@@ -1,18 +1,12 @@
 #include <gtest/gtest.h>
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <thread>
 
-#include "experiments/commands/cli.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/builtin_studies.h"
 #include "experiments/study/study.h"
-#include "experiments/study/study_reader.h"
 #include "tests/experiments/commands/verbs.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"

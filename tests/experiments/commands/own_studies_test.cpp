@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/base/input_file.h"
+#include "experiments/runs/run_table.h"
 #include "experiments/tables/table.h"
 #include "tests/experiments/commands/verbs.h"
 

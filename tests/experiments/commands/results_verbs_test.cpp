@@ -5,10 +5,8 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <thread>
 
-#include "experiments/commands/cli.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study.h"

@@ -1,6 +1,5 @@
 // `irk solve` with lists: all combinations.
 #include <gtest/gtest.h>
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>

@@ -1,20 +1,12 @@
 // The verbs that work on studies, each with success and failure: run, merge, compare, plot, report, claims, paper.
 // Each test has its own folder and a study of seconds.
 #include <gtest/gtest.h>
-#include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <sstream>
-#include <thread>
 
-#include "experiments/commands/cli.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/builtin_studies.h"
 #include "experiments/study/study.h"
-#include "experiments/study/study_reader.h"
 #include "tests/experiments/commands/verbs.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"

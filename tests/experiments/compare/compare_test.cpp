@@ -1,5 +1,4 @@
 // The comparison of results: the model of noise on synthetic tables, and the verb.
-#include "experiments/compare/compare.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

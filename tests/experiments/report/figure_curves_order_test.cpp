@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <map>
-#include <sstream>
 
-#include "experiments/report/report.h"
 #include "experiments/tables/table.h"
 #include "tests/experiments/report/drawn.h"
 #include "tests/experiments/support.h"

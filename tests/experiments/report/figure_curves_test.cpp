@@ -5,10 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <sstream>
 
-#include "experiments/report/report.h"
 #include "experiments/tables/table.h"
 #include "tests/experiments/report/drawn.h"
 #include "tests/experiments/support.h"

@@ -6,7 +6,6 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/analyses/estimates.h"
 #include "experiments/base/time_left.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/runner.h"

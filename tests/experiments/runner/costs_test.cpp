@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <numeric>
 
 #include "experiments/runner/shard_plan.h"
 #include "tests/experiments/stored_runs.h"

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "experiments/runner/schedule/plan.h"
-#include "experiments/runner/skipped_runs.h"
 #include "tests/experiments/stored_runs.h"
 
 namespace irk {

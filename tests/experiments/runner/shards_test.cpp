@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "experiments/runner/schedule/costs.h"
-#include "experiments/runner/shard_plan.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/stored_runs.h"

@@ -8,7 +8,6 @@
 #include <functional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "experiments/commands/commands.h"
 #include "experiments/runs/run_table.h"

@@ -9,7 +9,6 @@
 #include "experiments/runs/peers/loaded/load_method.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
-#include "experiments/runs/run_table.h"
 #include "irk/peer.h"
 #include "tests/experiments/support.h"
 

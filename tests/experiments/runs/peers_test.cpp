@@ -8,7 +8,6 @@
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
-#include "experiments/runs/run_table.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
