@@ -1,8 +1,6 @@
 #include "experiments/runner/skipped_runs.h"
 
-#include <chrono>
 #include <optional>
-#include <thread>
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/final_states.h"
@@ -10,15 +8,9 @@
 #include "experiments/store/facts.h"
 #include "experiments/study/series_rules.h"
 #include "experiments/study/series_walk.h"
-#include "experiments/tables/environment.h"
 
 namespace irk {
 namespace {
-
-// Of rows of one second in two parts, the one in the later part counts.
-void waitForTheNextSecond(const store::Entry& entry) {
-  while (store::secondsOf(dateText()) == entry.date) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-}
 
 class Skipped {
  public:
@@ -41,10 +33,8 @@ class Skipped {
   void recordOne(const RunSpec& spec, std::uint64_t key, std::uint64_t easier) {
     const store::Rows& rows = store_.runs();
     const RunRecord record = notMade(spec, rows.row(*rows.find(easier)), columns_);
-    if (const auto entry = rows.find(key)) {
-      if (textAt(columns_, rows.row(*entry), "detail") == record.detail) return;
-      if (!rows.isOwn(*entry)) waitForTheNextSecond(*entry);
-    }
+    const auto entry = rows.find(key);
+    if (entry && textAt(columns_, rows.row(*entry), "detail") == record.detail) return;
     const std::string text = hexText(key);
     if (study_.states) store_.addState(text, vectorText(componentsOf(record)), vectorText(barsOf(record)));
     store_.addRun(runRow(text, study_.id, record));

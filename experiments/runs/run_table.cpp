@@ -41,7 +41,7 @@ constexpr std::string_view kErrors[] = {"error",
                                         "error_bar_tolerances"};
 constexpr std::string_view kTimes[] = {"cpu_s",    "cpu_setup_s", "cpu_median_s",    "cpu_spread",
                                        "cpu_runs", "cpu_all",     "cpu_environment", "cpu_error_bar_s"};
-// The code that made a row, its machine and date, and the date of a --fresh request.
+// The code that made a row, its machine and date, and the number of the last --fresh request for it.
 constexpr std::string_view kOrigin[] = {"code", "environment", "date", "remade"};
 
 void append(std::vector<std::string>& to, std::span<const std::string_view> names) {
@@ -157,8 +157,7 @@ void setTiming(const Table& table, TableRow& row, const Timing& timing) {
   for (const double seconds : timing.all_s) all += (all.empty() ? "" : " ") + numberText(seconds);
   row[table.column("cpu_all")] = all;
   row[table.column("cpu_environment")] = thisEnvironment().front();
-  auto& date = row[table.column("date")];
-  date = std::max(date, dateText());  // the clock may have been set back; these times are the newer ones all the same
+  row[table.column("date")] = dateText();
 }
 
 void forgetTiming(const Table& table, TableRow& row) {

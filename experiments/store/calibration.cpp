@@ -1,6 +1,7 @@
 #include "experiments/store/calibration.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -83,7 +84,8 @@ double calibrationSeconds() {
 }
 
 TableRow calibrationRow(double seconds) {
-  const std::string id = hexText(fnv1a(fmt::format("{} {} {}", writerName(), wallSeconds(), seconds)));
+  const std::string id =
+      hexText(fnv1a(fmt::format("{} {} {} {} {}", hostName(), getpid(), dateText(), wallSeconds(), seconds)));
   return {id, thisEnvironment().front(), dateText(), numberText(seconds)};
 }
 

@@ -10,8 +10,9 @@ namespace irk::store {
 struct Entry {
   std::uint64_t key = 0, offset = 0;
   std::uint32_t part = 0;
-  std::uint32_t date = 0, remade = 0;  ///< seconds since 1970; 0 = none
-  std::uint16_t repetitions = 0;       ///< of the timing pass
+  std::uint32_t date = 0;         ///< seconds since 1970; 0 = none. For people: it decides nothing
+  std::uint32_t request = 0;      ///< the number of the last request to make the run again; 0 = none
+  std::uint16_t repetitions = 0;  ///< of the timing pass
   std::uint16_t code = 0, environment = 0, cpu_environment = 0, outcome = 0;
 };
 

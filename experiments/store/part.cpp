@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/store/checksum.h"
+#include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {
@@ -155,6 +157,33 @@ void writeSealed(const std::filesystem::path& table, const std::vector<std::stri
     return std::string();
   });
   if (!out.flush()) cannotWritePart(part);
+}
+
+std::uint64_t numberOfPart(const std::filesystem::path& part) {
+  const std::string name = part.filename().string();
+  const std::string word = name.substr(std::min(name.find('.'), name.size() - 1) + 1);
+  const char* end = word.data() + std::min(word.find('.'), word.size());
+  std::uint64_t number = 0;
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && stop == end ? number : 0;
+}
+
+std::string partName(std::string_view table, std::uint64_t number) {
+  return fmt::format("{}.{:04}.{}.{}", table, number, hostName(), getpid());
+}
+
+std::vector<std::filesystem::path> partsInOrder(const std::filesystem::path& folder, std::string_view table) {
+  std::vector<std::filesystem::path> parts;
+  if (!std::filesystem::is_directory(folder)) return parts;
+  const auto prefix = std::string(table) + '.';
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(".csv")) parts.push_back(entry.path());
+  }
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return std::pair(numberOfPart(a), a.filename()) < std::pair(numberOfPart(b), b.filename());
+  });
+  return parts;
 }
 
 PartWriter::PartWriter(std::filesystem::path folder, std::string name, std::vector<std::string> columns)

@@ -58,6 +58,17 @@ PartReading readPart(const std::filesystem::path& file, const std::vector<std::s
 void writeSealed(const std::filesystem::path& table, const std::vector<std::string>& columns,
                  const std::filesystem::path& part);
 
+/// The number of a part, the second word of its name: 12 for `runs.0012.host.4711.csv`; 0 for other names, as those
+/// that former versions gave.
+std::uint64_t numberOfPart(const std::filesystem::path& part);
+
+/// The name of a new part of this process without `.csv`: `runs.0012.host.4711`, the table, `number`, host and process.
+std::string partName(std::string_view table, std::uint64_t number);
+
+/// The parts <table>.*.csv in a folder, in the order in which they were begun: by their numbers, then by their names.
+/// Names without a number come first; they begin with the date of their writer.
+std::vector<std::filesystem::path> partsInOrder(const std::filesystem::path& folder, std::string_view table);
+
 /// Appends rows with checksums to a file that belongs to this process and is created with the first row. Each row is
 /// one write at the end of the file: a killed process leaves complete rows and at most one that is cut short. Not
 /// thread-safe.

@@ -72,6 +72,8 @@ bool isOfKind(Kind kind, std::string_view cell) {
       return isCount(cell);
     case Kind::kDate:
       return cell.empty() || secondsOf(cell) > 0;
+    case Kind::kRequest:
+      return cell.empty() || requestOf(cell) > 0;
     case Kind::kOutcome:
       return isOutcome(cell);
   }
@@ -92,6 +94,8 @@ std::string_view wordFor(Kind kind) {
       return "number of 0, 1, 2, ...";
     case Kind::kDate:
       return "date";
+    case Kind::kRequest:
+      return "number of 1, 2, 3, ... and no date";
     case Kind::kOutcome:
       return "outcome";
   }
@@ -119,7 +123,8 @@ Kind kindOf(const std::string& column) {
   if (isAmong(kHashes)) return Kind::kHash;
   if (isAmong(kMeasured) || column.ends_with("_over_time")) return Kind::kNumber;
   if (column == "cpu_all" || column == "state" || column == "bar") return Kind::kNumbers;
-  if (column == "date" || column == "remade" || column == "first_date") return Kind::kDate;
+  if (column == "date" || column == "first_date") return Kind::kDate;
+  if (column == "remade") return Kind::kRequest;
   return isAmong(counters) ? Kind::kCount : Kind::kText;
 }
 
@@ -138,6 +143,11 @@ std::uint32_t secondsOf(std::string_view date) {
   const auto seconds = day.time_since_epoch() / std::chrono::seconds(1) + std::int64_t{part(11, 2)} * 3600 +
                        std::int64_t{part(14, 2)} * 60 + part(17, 2);
   return static_cast<std::uint32_t>(seconds);
+}
+
+std::uint32_t requestOf(std::string_view remade) {
+  std::uint32_t number = 0;
+  return isAll(remade, number) ? number : secondsOf(remade);
 }
 
 CellKinds::CellKinds(const std::vector<std::string>& columns) : columns_(columns) {

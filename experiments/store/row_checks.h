@@ -13,6 +13,10 @@ namespace irk::store {
 /// Seconds since 1970 of `2026-01-31T12:00:00Z`; 0 for other text.
 std::uint32_t secondsOf(std::string_view date);
 
+/// The number of a request to make runs again, from a cell of the column `remade`: `3`. Former versions stored its date
+/// there: then the seconds since 1970, so that the next number is above all dates. 0 for an empty cell and other text.
+std::uint32_t requestOf(std::string_view remade);
+
 /// Checks the cells of a row against their columns: numbers, counts, dates, hashes and outcomes.
 class CellKinds {
  public:
@@ -22,7 +26,7 @@ class CellKinds {
   /// columns, and columns of free text, are not checked.
   std::string problemOf(const std::vector<std::string_view>& cells) const;
 
-  enum class Kind { kText, kHash, kNumber, kNumbers, kCount, kDate, kOutcome };
+  enum class Kind { kText, kHash, kNumber, kNumbers, kCount, kDate, kRequest, kOutcome };
 
  private:
   std::vector<std::string> columns_;

@@ -20,7 +20,6 @@
 #include "core/base/input_file.h"
 #include "experiments/base/failure.h"
 #include "experiments/store/checksum.h"
-#include "experiments/tables/environment.h"
 
 namespace irk::store {
 namespace {
@@ -106,12 +105,6 @@ struct Rows::Columns {
 
 std::uint64_t keyNumber(std::string_view key) { return numberOf<std::uint64_t>(key, 16); }
 
-std::string writerName() {
-  std::string date = dateText();
-  std::erase_if(date, [](char c) { return c == ':' || c == '-'; });
-  return fmt::format("{}.{}.{}", date, hostName(), getpid());
-}
-
 Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<std::string> columns,
            std::string_view code)
     : folder_(folder / "parts"),
@@ -121,8 +114,7 @@ Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<st
       kinds_(columns_),
       names_(1),
       current_(idOf(at_->code < columns_.size() ? code : "")),
-      index_([this](const Entry& a, const Entry& b) { return better(a, b); }),
-      writer_(folder_, name_ + "." + writerName(), columns_) {}
+      index_([this](const Entry& a, const Entry& b) { return better(a, b); }) {}
 
 Rows::~Rows() {
   for (const int file : descriptors_) {
@@ -142,9 +134,7 @@ std::uint16_t Rows::idOf(std::string_view name) {
 }
 
 bool Rows::better(const Entry& a, const Entry& b) const {
-  const auto rank = [this](const Entry& e) {
-    return std::tuple(isCurrent(e), e.remade, e.repetitions > 0, e.date, e.repetitions, e.part, e.offset);
-  };
+  const auto rank = [this](const Entry& e) { return std::tuple(merit(e), e.part, e.offset); };
   return rank(a) > rank(b);
 }
 
@@ -153,7 +143,7 @@ std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
   if (!parseKey(cells.front(), entry.key)) return {};
   const auto cell = [&cells](std::size_t at) { return at < cells.size() ? cells[at] : std::string_view(); };
   entry.date = secondsOf(cell(at_->date));
-  entry.remade = secondsOf(cell(at_->remade));
+  entry.request = requestOf(cell(at_->remade));
   entry.repetitions = numberOf<std::uint16_t>(cell(at_->repetitions));
   entry.code = idOf(cell(at_->code));
   entry.environment = idOf(cell(at_->environment));
@@ -207,14 +197,7 @@ void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage
 }
 
 void Rows::read(Damage damage, std::ostream& messages) {
-  const auto prefix = name_ + ".";
-  if (std::filesystem::is_directory(folder_)) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      const auto file = entry.path().filename().string();
-      if (file.starts_with(prefix) && file.ends_with(".csv")) parts_.push_back(entry.path());
-    }
-  }
-  std::sort(parts_.begin(), parts_.end());
+  parts_ = partsInOrder(folder_, name_);
   const auto exported = folder_.parent_path() / (name_ + ".csv");
   if (parts_.empty() && std::filesystem::exists(exported)) parts_.push_back(exported);
   for (const auto& part : parts_) requireRegularFile(part);
@@ -229,14 +212,16 @@ void Rows::append(const TableRow& row) {
   std::vector<std::string_view> cells(row.begin(), row.end());
   auto entry = entryOf(cells);
   if (!entry) throw Failure(fmt::format("'{}' is no key of 16 hexadecimal digits", row.front()));
-  const bool first = writer_.file().empty();
-  entry->offset = writer_.append(row);
-  if (first) {
-    parts_.push_back(writer_.file());
+  if (!writer_) {
+    const std::uint64_t last = parts_.empty() ? 0 : numberOfPart(parts_.back());
+    writer_.emplace(folder_, partName(name_, last + 1), columns_);
+  }
+  entry->offset = writer_->append(row);
+  if (parts_.empty() || parts_.back() != writer_->file()) {
+    parts_.push_back(writer_->file());
     sealed_.push_back(true);
   }
-  const auto own = std::find(parts_.begin(), parts_.end(), writer_.file());
-  entry->part = static_cast<std::uint32_t>(own - parts_.begin());
+  entry->part = static_cast<std::uint32_t>(parts_.size() - 1);
   index_.put(*entry);
 }
 

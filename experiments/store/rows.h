@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "experiments/store/entry_index.h"
@@ -23,15 +24,14 @@ namespace irk::store {
 /// The number that the hexadecimal text `0123456789abcdef` stands for.
 std::uint64_t keyNumber(std::string_view key);
 
-/// The name of a writer in a folder: date, host and process, so that names sort by date.
-std::string writerName();
-
 /// The rows of parts/<name>.*.csv by the key in their first column, 16 hexadecimal digits or fewer. If several rows
 /// have one key, one of them is valid, by these criteria in order:
 ///   1. made by this program's code;
-///   2. the latest request to make it again (`--fresh`: column `remade`);
+///   2. the last request to make it again (`--fresh`: column `remade`);
 ///   3. measured by the timing pass (column `cpu_runs`);
-///   4. the later date; within one second more repetitions, then the row of the later part, or further down in it.
+///   4. written later: in the part that was begun later (partsInOrder), or further down in it.
+/// No date decides, because a clock can be set back: the number of a new part is one above all that its writer has
+/// read. Writers that did not see each other's parts may have equal numbers; then the names of the parts decide.
 /// Reading takes one pass over the parts and keeps one Entry per key, with bounded memory (EntryIndex). Not
 /// thread-safe.
 class Rows {
@@ -53,6 +53,10 @@ class Rows {
   /// The valid row of this key, if there is one.
   std::optional<Entry> find(std::uint64_t key) const { return index_.find(key); }
   bool isCurrent(const Entry& entry) const { return entry.code == current_; }
+  /// Criteria 1 to 3. Those of several Rows can be compared; the order of criterion 4 is known within one only.
+  std::tuple<bool, std::uint32_t, bool> merit(const Entry& entry) const {
+    return {isCurrent(entry), entry.request, entry.repetitions > 0};
+  }
   const std::string& name(std::uint16_t id) const { return names_[id]; }
   TableRow row(const Entry& entry) const;
   /// The cells of `row` as they are written, with commas between them: what csvLine(row) gives, in less time.
@@ -60,7 +64,7 @@ class Rows {
   /// `cells` become those of the returned text.
   std::string csv(const Entry& entry, std::vector<std::string_view>& cells) const;
   /// Whether this object has appended the row.
-  bool isOwn(const Entry& entry) const { return parts_[entry.part] == writer_.file(); }
+  bool isOwn(const Entry& entry) const { return writer_ && parts_[entry.part] == writer_->file(); }
 
   /// Copies the row to parts/<part>.damaged, so that it is not read again, and says why on `messages`. The entry stays.
   void setAside(const Entry& entry, const std::string& why, std::ostream& messages) const;
@@ -115,7 +119,7 @@ class Rows {
   std::vector<std::string> names_;
   std::uint16_t current_;
   EntryIndex index_;
-  PartWriter writer_;
+  std::optional<PartWriter> writer_;  // since the first row was appended
   std::size_t damaged_ = 0;
   mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed
   mutable std::size_t open_ = 0;

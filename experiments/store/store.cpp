@@ -1,11 +1,9 @@
 #include "experiments/store/store.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <ostream>
 #include <utility>
@@ -36,25 +34,15 @@ std::filesystem::path freeName(const std::filesystem::path& file) {
   return to;
 }
 
-std::string textOf(std::time_t seconds) { return fmt::format("{:%FT%TZ}", fmt::gmtime(seconds)); }
-
-// The date of a request to make runs again: now, or if the clock has been set back, after all former requests.
-std::string afterAllRequests(const Rows& runs) {
+// The number of a new request to make runs again: one above all former ones.
+std::uint32_t nextRequest(const Rows& runs) {
   std::uint32_t last = 0;
-  runs.forEach([&last](const Entry& entry) { last = std::max(last, entry.remade); });
-  const std::time_t next = std::max<std::time_t>(std::time(nullptr), last > 0 ? std::time_t{last} + 1 : 0);
-  return textOf(next);
+  runs.forEach([&last](const Entry& entry) { last = std::max(last, entry.request); });
+  return last + 1;
 }
 
 // Of runs: a table that is taken in has no part of runs until all its other tables have one.
-bool hasParts(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder / "parts")) return false;
-  for (const auto& part : std::filesystem::directory_iterator(folder / "parts")) {
-    const auto name = part.path().filename().string();
-    if (name.starts_with(std::string(kTables[0]) + '.') && name.ends_with(".csv")) return true;
-  }
-  return false;
-}
+bool hasParts(const std::filesystem::path& folder) { return !partsInOrder(folder / "parts", kTables[0]).empty(); }
 
 }  // namespace
 
@@ -63,7 +51,6 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
     : folder_(std::move(folder)),
       study_(std::move(study)),
       options_(options),
-      started_(dateText()),
       runs_(folder_, kTables[0], runColumns(), buildInfo().code),
       states_(folder_, kTables[1], stateColumns(), buildInfo().code),
       environments_(folder_, kTables[2], environmentColumns(), ""),
@@ -78,7 +65,7 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
     rows->read(damage, messages);
     unsealed += rows->unsealedParts();
   }
-  if (options_.finished == FinishedRuns::kRunAgain) started_ = afterAllRequests(runs_);
+  if (options_.finished == FinishedRuns::kRunAgain) request_ = nextRequest(runs_);
   if (use != Use::kWrite || unsealed == 0) return;
   fmt::print(messages,
              "{}: {} of its parts are of a former version and have no checksums: their rows are checked by their cells "
@@ -108,7 +95,7 @@ void Store::adoptFormerTable(std::ostream& messages) {
   for (const auto* table : {&calibrations_, &environments_, &states_, &runs_}) {
     const auto from = folder_ / (table->kind() + ".csv");
     if (!std::filesystem::is_regular_file(from)) continue;
-    const auto part = folder_ / "parts" / fmt::format("{}.{}.taken_in.csv", table->kind(), writerName());
+    const auto part = folder_ / "parts" / (partName(table->kind(), 1) + ".taken_in.csv");
     const auto beside = newBeside(part);
     writeSealed(from, table->columns(), beside);
     std::filesystem::rename(beside, part);
@@ -124,7 +111,7 @@ std::optional<Entry> Store::finished(std::uint64_t key) const {
   const auto entry = runs_.find(key);
   if (!entry || wrong_keys_.contains(key)) return {};
   if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return {};
-  const bool made_before = entry->remade < secondsOf(started_) || !runs_.isCurrent(*entry);
+  const bool made_before = entry->request < request_ || !runs_.isCurrent(*entry);
   if (options_.finished == FinishedRuns::kRunAgain && made_before) return {};
   return entry;
 }
@@ -137,12 +124,6 @@ void Store::addEnvironment() {
 void Store::addTimes(TableRow row) {
   addEnvironment();
   row.resize(runs_.columns().size());
-  // Of times by several machines the later ones count; those of one second, by the date.
-  const auto before = runs_.find(keyNumber(row.front()));
-  auto& date = row[static_cast<std::size_t>(std::ranges::find(runs_.columns(), "date") - runs_.columns().begin())];
-  if (before && runs_.name(before->cpu_environment) != thisEnvironment().front() && secondsOf(date) <= before->date) {
-    date = textOf(std::time_t{before->date} + 1);
-  }
   runs_.append(row);
 }
 
@@ -153,8 +134,11 @@ void Store::addCalibration(double seconds) {
 
 void Store::addRun(TableRow row) {
   addEnvironment();
-  if (options_.finished == FinishedRuns::kRunAgain) row.back() = started_;
-  wrong_keys_.erase(keyNumber(row.front()));
+  const std::uint64_t key = keyNumber(row.front());
+  const auto before = runs_.find(key);
+  const std::uint32_t request = std::max(request_, before ? before->request : 0);
+  if (request > 0) row.back() = std::to_string(request);
+  wrong_keys_.erase(key);
   runs_.append(row);
 }
 
@@ -163,21 +147,27 @@ void Store::addState(const std::string& key, const std::string& state, const std
 }
 
 std::size_t Store::takeOver(const Store& other) {
-  const auto take = [](Rows& rows, const Rows& from) {
-    std::size_t taken = 0;
+  const auto takeMissing = [](Rows& rows, const Rows& from) {
     from.forEach([&](const Entry& entry) {
-      const TableRow row = from.row(entry);
-      const auto here = rows.find(entry.key);
-      if (here && rows.row(*here) == row) return;
-      rows.append(row);
-      ++taken;
+      if (!rows.find(entry.key)) rows.append(from.row(entry));
     });
-    return taken;
   };
-  take(environments_, other.environments_);
-  take(states_, other.states_);
-  take(calibrations_, other.calibrations_);
-  return take(runs_, other.runs_);
+  takeMissing(environments_, other.environments_);
+  takeMissing(calibrations_, other.calibrations_);
+  const auto rank = [](const Rows& rows, const Entry& entry) {
+    return std::pair(rows.merit(entry), entry.repetitions);
+  };
+  std::size_t taken = 0;
+  other.runs_.forEach([&](const Entry& entry) {
+    const auto here = runs_.find(entry.key);
+    const bool takes = !here || rank(other.runs_, entry) > rank(runs_, *here);
+    const auto state = other.states_.find(entry.key);
+    if (state && (takes || !hasState(entry.key))) states_.append(other.states_.row(*state));
+    if (!takes) return;
+    runs_.append(other.runs_.row(entry));
+    ++taken;
+  });
+  return taken;
 }
 
 void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {

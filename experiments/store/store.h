@@ -1,8 +1,9 @@
 // The stored rows of one study: part files, to which rows are only ever appended, and the tables exported from them.
 //
 //   results/<study>/lock                        held by the current writer
-//                   parts/runs.<writer>.csv     rows of one process; likewise states, environments and calibrations
-//                   parts/runs.<writer>.damaged lines that could not be read
+//                   parts/runs.<number>.<host>.<process>.csv
+//                                               rows of one process; likewise states, environments and calibrations
+//                   parts/….damaged             lines that could not be read
 //                   runs.csv, states.csv, environments.csv, calibrations.csv   for people and gnuplot: the study's
 //                                               runs in its order
 #pragma once
@@ -60,7 +61,7 @@ class Store {
   std::optional<Entry> finished(std::uint64_t key) const;
   bool hasState(std::uint64_t key) const { return states_.find(key).has_value(); }
 
-  /// Stores a run that was made now; fills in the column `remade`.
+  /// Stores a run that was made now; fills in the column `remade`: the number of the last request for the run.
   void addRun(TableRow row);
   /// Stores a row with new times; drops its cell of blocks.
   void addTimes(TableRow row);
@@ -68,7 +69,8 @@ class Store {
   void addCalibration(double seconds);
   /// `bar`: the error bars of the state, which may be empty.
   void addState(const std::string& key, const std::string& state, const std::string& bar);
-  /// Copies the rows of `other` that this store does not have. Returns the number of copied runs.
+  /// Copies the rows of `other` that this store does not have, and runs with their states that are better: by the first
+  /// three criteria of Rows, then by more repetitions of times. Returns the number of copied runs.
   std::size_t takeOver(const Store& other);
 
   /// Whether the times of the row are of this program's timing class (tables/timing_class.h).
@@ -97,7 +99,7 @@ class Store {
   std::filesystem::path folder_;
   std::string study_;
   StoreOptions options_;
-  std::string started_;
+  std::uint32_t request_ = 0;  // the number of this request to make runs again; 0: there is none
   std::optional<Lock> lock_;
   Rows runs_, states_, environments_, calibrations_;
   std::set<std::uint64_t> wrong_keys_;  // of rows that were set aside

@@ -61,7 +61,8 @@ constexpr ColumnText kRunColumns[] = {
     {"code", "", "A hash of the sources that determine numbers. Rows of other code are kept but not used."},
     {"environment", "", "Where the row was made: a row of environments.csv."},
     {"date", "", "When the row was written, in UTC."},
-    {"remade", "", "The date of the --fresh that asked for the run again; else empty."},
+    {"remade", "",
+     "The number of the last --fresh that asked for the run: 1, 2, ...; of a former version its date; else empty."},
     {"block", "", "The names of the study's blocks that contain the run."},
 };
 

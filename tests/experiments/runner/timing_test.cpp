@@ -183,15 +183,15 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   options.jobs = 1;
   const Table runs = runStudy(study, options, quiet);
   store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  int day = 1;
+  int request = 1;
   const auto repetitions = [&](const char* cpu, const char* outcome) {
     for (TableRow row : runs.rows) {
       row[runs.column("cpu_s")] = cpu;
       row[runs.column("outcome")] = outcome;
-      row[runs.column("remade")] = "2100-01-0" + std::to_string(day) + "T00:00:00Z";  // replaces the rows before
+      row[runs.column("remade")] = std::to_string(request);  // replaces the rows before
       store.addTimes(row);
     }
-    ++day;
+    ++request;
     study.timing = {true, 1e-4, 3, 0.5, 3};
     const Table table = timed(study, store, [&](const auto&, double) { return std::stod(cpu); });
     return numberAt(table, table.rows.front(), "cpu_runs");
@@ -235,7 +235,7 @@ class MadeUpTimes : public testing::Test {
       const bool first = row == made_.rows.front();
       row[made_.column("cpu_s")] = seconds;
       if (!first) row[made_.column("outcome")] = "max_steps";
-      row[made_.column("remade")] = "2100-01-01T00:00:00Z";  // replaces the rows before
+      row[made_.column("remade")] = "1";  // replaces the rows before
       store.addTimes(row);
     }
   }

@@ -9,67 +9,82 @@ namespace {
 
 class SetBackClock : public StoredRuns {
  protected:
-  // As if all rows had been written before the clock was set back.
-  void ageBy(const char* column) const {
-    changePart("results", [column](Table& part) {
-      for (auto& row : part.rows) row[part.column(column)] = "2099-01-01T00:00:00Z";
-    });
+  // As if all that is stored had been written before the clock was set back.
+  void setClockBack() const {
+    for (const auto& part : partsOf(folder(), "")) {
+      Table rows = readPartTable(part);
+      for (const char* column : {"date", "first_date"}) {
+        if (!rows.hasColumn(column)) continue;
+        for (auto& row : rows.rows) row[rows.column(column)] = "2099-01-01T00:00:00Z";
+      }
+      writePartTable(part, rows);
+    }
   }
+  std::set<std::string> requests() {
+    std::set<std::string> requests;
+    for (const auto& row : run().rows) requests.insert(textAt(names_, row, "remade"));
+    EXPECT_EQ(made(), 0);
+    return requests;
+  }
+  std::uint64_t anyKey() {
+    std::uint64_t key = 0;
+    reader().runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
+    return key;
+  }
+  void time(std::uint64_t key, std::size_t repetitions) {
+    Store writer(folder(), "small", Use::kWrite, {}, told_);
+    TableRow row = writer.runs().row(*writer.runs().find(key));
+    setTiming(names_, row, {1, 1, 0, std::vector<double>(repetitions, 1.0)});
+    writer.addTimes(row);
+  }
+
+  const store::StoreOptions fresh_{.finished = store::FinishedRuns::kRunAgain};
+  const Table names_{{}, runColumns(), {}};
 };
 
 TEST_F(SetBackClock, FreshMakesAllRunsAgain) {
   run();
-  ageBy("remade");
-  run("results", {.finished = store::FinishedRuns::kRunAgain});
-  EXPECT_EQ(made(), 9);
-  const Table names{{}, runColumns(), {}};
-  for (const auto& row : run().rows) EXPECT_EQ(textAt(names, row, "remade").substr(0, 19), "2099-01-01T00:00:01");
-  EXPECT_EQ(made(), 0);
-}
-
-// The times of three repetitions are in a part whose name, and in rows whose dates, are later than those of five.
-TEST_F(SetBackClock, NewTimesCount) {
-  run();
-  const Table names{{}, runColumns(), {}};
-  std::uint64_t key = 0;
-  reader().runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
-  const auto time = [&](std::size_t repetitions) {
-    Store writer(folder(), "small", Use::kWrite, {}, told_);
-    TableRow row = writer.runs().row(*writer.runs().find(key));
-    setTiming(names, row, {1, 1, 0, std::vector<double>(repetitions, 1.0)});
-    writer.addTimes(row);
-  };
-  time(3);
-  for (const auto& part : partsOf(folder())) {
-    Table rows = readPartTable(part);
-    for (auto& row : rows.rows) row[rows.column("date")] = "2099-01-01T00:00:00Z";
-    writePartTable(part, rows);
+  for (const char* request : {"1", "2"}) {
+    setClockBack();
+    run("results", fresh_);
+    EXPECT_EQ(made(), 9);
+    EXPECT_EQ(requests(), std::set<std::string>{request});
+    for (const auto& row : run().rows) EXPECT_LT(textAt(names_, row, "date"), "2099") << "it says when it was written";
   }
-  std::filesystem::rename(partsOf(folder()).back(), folder() / "parts" / "runs.later.csv");
-  EXPECT_EQ(reader().runs().find(key)->repetitions, 3);
-  time(5);
-  EXPECT_EQ(reader().runs().find(key)->repetitions, 5);
 }
 
-// Two times by this machine in the second in which another machine has written three.
-TEST_F(SetBackClock, TimesOfThisMachineCountInTheSameSecond) {
+// Former versions stored the date of a request. Its seconds since 1970: date -ud 2099-01-01 +%s.
+TEST_F(SetBackClock, FreshFollowsTheDatesOfFormerVersions) {
   run();
-  const Table names{{}, runColumns(), {}};
-  moveToOtherMachine("results", 9);
-  std::uint64_t key = 0;
-  reader().runs().forEach([&key](const store::Entry& entry) { key = entry.key; });
   changePart("results", [](Table& part) {
-    for (auto& row : part.rows) {
-      row[part.column("date")] = "2099-01-01T00:00:00Z";
-      row[part.column("cpu_runs")] = "3";
-    }
+    for (auto& row : part.rows) row[part.column("remade")] = "2099-01-01T00:00:00Z";
   });
-  {
-    Store writer(folder(), "small", Use::kWrite, {}, told_);
-    TableRow row = writer.runs().row(*writer.runs().find(key));
-    setTiming(names, row, {1, 1, 0, {1, 1}});
-    writer.addTimes(row);
+  EXPECT_EQ(requests(), std::set<std::string>{"2099-01-01T00:00:00Z"});
+  run("results", fresh_);
+  EXPECT_EQ(made(), 9);
+  EXPECT_EQ(requests(), std::set<std::string>{"4070908801"});
+}
+
+TEST_F(SetBackClock, EachRepetitionCounts) {
+  run();
+  const std::uint64_t key = anyKey();
+  for (const std::size_t repetitions : {1u, 2u, 3u, 4u, 5u}) {
+    setClockBack();
+    time(key, repetitions);
+    EXPECT_EQ(reader().runs().find(key)->repetitions, repetitions);
   }
+}
+
+// Two times by this machine after three by another one.
+TEST_F(SetBackClock, FewerTimesOfThisMachineCount) {
+  run();
+  moveToOtherMachine("results", 9);
+  changePart("results", [](Table& part) {
+    for (auto& row : part.rows) row[part.column("cpu_runs")] = "3";
+  });
+  setClockBack();
+  const std::uint64_t key = anyKey();
+  time(key, 2);
   const Store store = reader();
   EXPECT_EQ(store.runs().find(key)->repetitions, 2);
   EXPECT_TRUE(store.timedHere(*store.runs().find(key)));

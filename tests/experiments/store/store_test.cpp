@@ -31,6 +31,9 @@ TEST(Part, SecondsOfADate) {
   EXPECT_EQ(store::secondsOf("1970-01-02T00:00:01Z"), 86401u);
   EXPECT_EQ(store::secondsOf("2024-02-29T12:34:56Z"), 1709210096u);  // date -ud 2024-02-29T12:34:56 +%s
   EXPECT_EQ(store::secondsOf(""), 0u);
+  EXPECT_EQ(store::requestOf("12"), 12u);
+  EXPECT_EQ(store::requestOf("2024-02-29T12:34:56Z"), 1709210096u);
+  for (const char* none : {"", "0", "-1", "1.5", "3 times"}) EXPECT_EQ(store::requestOf(none), 0u) << none;
 }
 
 TEST_F(Results, OneDamagedLineCostsOneRow) {
@@ -154,39 +157,6 @@ TEST_F(Results, TheExportIsInTheStudysOrderWhateverThatOfTheParts) {
   const Table first = run();
   changePart("results", [](Table& part) { std::reverse(part.rows.begin(), part.rows.end()); });
   EXPECT_EQ(run().rows, first.rows);
-}
-
-// Which of two rows with one key is valid, regardless of the order of the parts.
-TEST_F(Results, TheRowThatCounts) {
-  TableRow made = run().rows.front();
-  made.resize(runColumns().size());  // parts have no column of blocks
-  const Table names{{}, runColumns(), {}};
-  const std::string own = textAt(names, made, "code");
-  const auto row = [&](const std::string& code, const char* remade, const char* timed, const char* date) {
-    TableRow changed = made;
-    changed[names.column("code")] = code;
-    changed[names.column("remade")] = remade;
-    changed[names.column("cpu_runs")] = timed;
-    changed[names.column("date")] = date;
-    return changed;
-  };
-  const char *early = "2020-01-01T00:00:00Z", *late = "2021-01-01T00:00:00Z";
-  const std::vector<std::pair<TableRow, TableRow>> ranked = {
-      {row(own, "", "0", early), row("other", late, "3", late)},  // this code
-      {row(own, early, "0", early), row(own, "", "3", late)},     // requested again
-      {row(own, "", "1", early), row(own, "", "0", late)},        // timed
-      {row(own, "", "1", late), row(own, "", "3", early)},        // later
-      {row("other", "", "0", late), row("other", "", "0", early)}};
-  for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const auto& [better, worse] = ranked[i];
-    for (const bool better_first : {true, false}) {
-      const std::filesystem::path tree = folder_.path() / ("rank" + std::to_string(2 * i + better_first));
-      writePartTable(tree / "parts" / "runs.1.csv", {{}, runColumns(), {better_first ? better : worse}});
-      writePartTable(tree / "parts" / "runs.2.csv", {{}, runColumns(), {better_first ? worse : better}});
-      const Store read(tree, "small", Use::kRead, {}, told_);
-      EXPECT_EQ(read.runs().row(*read.runs().find(store::keyNumber(made.front()))), better) << i << better_first;
-    }
-  }
 }
 
 // --- Tables without parts.
