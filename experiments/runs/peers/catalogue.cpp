@@ -15,14 +15,18 @@ namespace {
 
 constexpr bool kRoots = true, kNoRoots = false;
 
+std::string titleOfGsl(const std::string& title) {
+  return hasGsl() ? title : title + " (not in this program: IRK_GSL=OFF)";
+}
+
 std::deque<PeerEntry>& entries() {
   static std::deque<PeerEntry> all{
       {"arkode_dirk", "SUNDIALS ARKODE, diagonally implicit Runge-Kutta, order 5", PeerForm::kOde, 1, kRoots,
        makeArkode},
       {"cvode_bdf", "SUNDIALS CVODE, BDF of orders 1 to 5", PeerForm::kOde, 1, kRoots, makeCvode},
-      {"gsl_bsimp", "GSL, Bader and Deuflhard's extrapolation", PeerForm::kOde, 1, kNoRoots, makeGslBsimp},
-      {"gsl_msbdf", "GSL, BDF of orders 1 to 5", PeerForm::kOde, 1, kNoRoots, makeGslMsbdf},
-      {"gsl_rk4imp", "GSL, 2-stage Gauss, order 4", PeerForm::kOde, 1, kNoRoots, makeGslRk4imp},
+      {"gsl_bsimp", titleOfGsl("GSL, Bader and Deuflhard's extrapolation"), PeerForm::kOde, 1, kNoRoots, makeGslBsimp},
+      {"gsl_msbdf", titleOfGsl("GSL, BDF of orders 1 to 5"), PeerForm::kOde, 1, kNoRoots, makeGslMsbdf},
+      {"gsl_rk4imp", titleOfGsl("GSL, 2-stage Gauss, order 4"), PeerForm::kOde, 1, kNoRoots, makeGslRk4imp},
       {"ida_bdf", "SUNDIALS IDA, BDF of orders 1 to 5 for DAEs of index 1 and 2", PeerForm::kDae, 2, kRoots, makeIda}};
   return all;
 }

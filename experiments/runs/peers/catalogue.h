@@ -27,4 +27,7 @@ std::unique_ptr<Peer> makeGslMsbdf(const PeerSetup& setup);
 std::unique_ptr<Peer> makeGslRk4imp(const PeerSetup& setup);
 std::unique_ptr<Peer> makeIda(const PeerSetup& setup);
 
+/// Whether this program has GSL's integrators (IRK_GSL). If not, their functions above throw Misuse.
+bool hasGsl();
+
 }  // namespace irk

@@ -93,6 +93,8 @@ class Gsl final : public Peer {
 
 }  // namespace
 
+bool hasGsl() { return true; }
+
 std::unique_ptr<Peer> makeGslRk4imp(const PeerSetup& setup) {
   return std::make_unique<Gsl>(setup, gsl_odeiv2_step_rk4imp);
 }
