@@ -39,6 +39,8 @@ std::string refusedTimes(const std::filesystem::path& runs) { return headEntry(r
 
 std::string timesDrift(const std::filesystem::path& runs) { return headEntry(runs, store::kTimesDrift); }
 
+std::string timingCores(const std::filesystem::path& runs) { return headEntry(runs, store::kTimingCores); }
+
 void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out) {
   const auto drift = timesDrift(runs);
   if (drift.empty()) return;

@@ -19,6 +19,9 @@ std::string refusedTimes(const std::filesystem::path& runs);
 /// Why the times of a runs.csv are doubtful: the speed of a processor changed while they were measured, or hosts with
 /// the same processor differ in speed (store::calibrationDoubts). Empty if they are not.
 std::string timesDrift(const std::filesystem::path& runs);
+
+/// On how many cores at once the times of a runs.csv were measured, by host: `2 on HOST`. Empty if that is not known.
+std::string timingCores(const std::filesystem::path& runs);
 /// Prints the doubts about times, if there are any.
 void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out);
 /// The same for many studies in one line, which does not get lost between theirs.

@@ -79,6 +79,8 @@ class Program {
         ->check(CLI::IsMember({"keep", "remake"}))
         ->capture_default_str();
     addJobs(sub, "Threads; 0 = one per processor.");
+    const auto cores = "Cores on which runs are timed at once; 0 = as many as do not disturb each other.";
+    sub.add_option("--timing-cores", timing_cores_, numberHelp(cores, kJobs, "0"))->type_name("INTEGER");
     addTimes(sub);
     addQuick(sub);
     addResults(sub);
@@ -116,16 +118,16 @@ class Program {
     options.variant = variant();
     options.peers = peers_;
     options.runner.results = results();
-    options.runner.jobs = parseJobs();
+    options.runner.jobs = integer("jobs", jobs_, kJobs);
+    options.runner.timing_cores = integer("timing-cores", timing_cores_, kJobs);
     options.runner.store = storeOptions();
     if (!shard_.empty()) options.runner.shard = parseShard(shard_);
     return options;
   }
 
   void addPaper() {
-    auto* sub = verb(app_, "paper", "every study of the paper, figures and the report page",
-                     [this](Streams s) { return paperCommand(runOptions(), s); });
-    addRunnerOptions(*sub);
+    addRunnerOptions(*verb(app_, "paper", "every study of the paper, figures and the report page",
+                           [this](Streams s) { return paperCommand(runOptions(), s); }));
   }
 
   void addRun() {
@@ -136,7 +138,7 @@ class Program {
     addPeersOption(*sub, peers_);
     addRunnerOptions(*sub);
     auto* slurm = verb(app_, "slurm", "print a job script of Slurm: a study in n parts", [this](Streams s) {
-      return slurmCommand({study_, shard_, variant(), results_, std::max(1, parseJobs())}, s);
+      return slurmCommand({study_, shard_, variant(), results_, std::max(1, integer("jobs", jobs_, kJobs))}, s);
     });
     slurm->add_option("study", study_, "id or TOML file")->required();
     slurm->add_option("-n", shard_, "The number of parts, at most one per series.")->required();
@@ -184,7 +186,7 @@ class Program {
       if (!value.empty()) solve_.fields.emplace_back(field, value);
     }
     ensemble_.run = solve_;
-    ensemble_.jobs = parseJobs();
+    ensemble_.jobs = integer("jobs", jobs_, kJobs);
   }
 
   void addNew() {
@@ -294,7 +296,7 @@ class Program {
   void addReference() {
     auto* sub =
         verb(app_, "reference", "reference values in 50 digits: two methods, two tolerances each", [this](Streams s) {
-          reference_.jobs = parseJobs();
+          reference_.jobs = integer("jobs", jobs_, kJobs);
           return referenceCommand(reference_, s);
         });
     sub->add_option("scenes", reference_.scenes, "see: irk list scenes; all if left out");
@@ -312,12 +314,10 @@ class Program {
     verb(app_, "man", "this help as a manual page (roff)", [this](Streams s) { return printManual(app_, s.out), 0; });
   }
 
-  int parseJobs() const { return integer("jobs", jobs_, kJobs); }
-
   CLI::App app_;
   Action action_;
   bool quick_ = false, fresh_ = false, wait_ = false, partial_ = false, sensitivity_ = false;
-  std::string stale_ = "keep", times_ = "all", jobs_ = "0", digits_ = "17", results_ = "results";
+  std::string stale_ = "keep", times_ = "all", jobs_ = "0", timing_cores_ = "0", digits_ = "17", results_ = "results";
   std::string study_, shard_, what_, method_, shell_, out_ = "stability", format_ = "file";
   std::vector<std::string> folders_, methods_, load_, peers_;
   std::map<std::string, std::string> fields_;

@@ -20,6 +20,7 @@
 #include "experiments/report/explorer/explorer.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/report.h"
+#include "experiments/runner/cores/at_once.h"
 #include "experiments/runner/merge.h"
 #include "experiments/runner/ranks.h"
 #include "experiments/runner/shard_plan.h"
@@ -114,14 +115,6 @@ std::string refusalLine(const std::string& study, const store::Store& store, con
 // Whether tables are made from the runs.
 bool hasSummaries(const Study& study) { return !study.analyses.empty() || study.audit; }
 
-// This rank's share of the timing pass; nothing if it must be idle because another rank on its host measures.
-std::optional<TimingShare> timingShare(Ranks& ranks) {
-  const auto all = timingRanks(ranks.hosts());
-  const auto own = std::find(all.begin(), all.end(), ranks.rank());
-  if (own == all.end()) return {};
-  return TimingShare{static_cast<std::size_t>(own - all.begin()), all.size()};
-}
-
 // Makes this rank's part of the runs and of the times, and prints nothing; for ranks other than 0, which merges and
 // reports.
 void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
@@ -133,7 +126,7 @@ void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
   store.reset();
   ranks.meet();  // all rows are written
   if (!ranks.asTheFirst(false)) return;
-  if (const auto share = timingShare(ranks)) {
+  if (const auto share = timingShare(ranks, options)) {
     store.emplace(folder, study.id, store::Use::kJoin, options.store, silent);
     timeStudy(study, keys, *store, *share, silent);
   }
@@ -144,9 +137,9 @@ void joinStudy(const Study& study, const RunnerOptions& options, Ranks& ranks) {
 // Measures the times on all hosts, then reads the store again.
 void timeTogether(const Study& study, const RunKeys& keys, const RunnerOptions& options, Ranks& ranks,
                   std::optional<store::Store>& store, std::ostream& err) {
-  const auto share = timingShare(ranks);
+  const auto share = timingShare(ranks, options);
   if (share->hosts > 1)
-    fmt::print(err, "{}: {} hosts measure times, each one run after the other\n", study.id, share->hosts);
+    fmt::print(err, "{}: {} hosts measure times, each its share of the series\n", study.id, share->hosts);
   timeStudy(study, keys, *store, *share, err);
   ranks.meet();
   if (ranks.count() > 1) {
@@ -251,7 +244,11 @@ int runCommand(const RunOptions& options, Streams streams) {
   const FigureTables figures = figuresOfStudy(study, options.study);
   if (isStudyFile(options.study)) keepStudyFile(options.study, studyFolder(study, options.runner));
   const auto ranks = joinRanks();
+  const auto requireCores = [&] {
+    if (timingShare(*ranks, options.runner)) cores::requireCores(options.runner.timing_cores);
+  };
   if (ranks->count() == 1) {
+    requireCores();
     const InterruptScope interrupts;
     return runOne(study, figures, options.runner, *ranks, streams);
   }
@@ -265,6 +262,7 @@ int runCommand(const RunOptions& options, Streams streams) {
   };
   int status = 0;
   try {
+    requireCores();
     if (ranks->rank() == 0) {
       status = runStored(study, figures, each, *ranks, streams);
     } else {
@@ -289,6 +287,7 @@ std::vector<std::string> paperStudies() {
 int paperCommand(const RunOptions& options, Streams streams) {
   const auto alone = joinRanks();
   if (alone->count() > 1) throw Misuse("paper under mpirun: its ranks share the runs of one study, irk run STUDY");
+  cores::requireCores(options.runner.timing_cores);
   const InterruptScope interrupts;
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // continue with the other studies if one fails

@@ -70,6 +70,13 @@ std::string driftHtml(const std::filesystem::path& runs) {
   return fmt::format("<p class=\"note drift\"><b>Times:</b> {} ({}). Counts are exact.</p>\n", rate, escapeHtml(drift));
 }
 
+// On how many cores at once the times of `runs` were measured; empty if that is not known.
+std::string coresHtml(const std::filesystem::path& runs) {
+  const std::string cores = timingCores(runs);
+  if (cores.empty()) return {};
+  return fmt::format("<p class=\"note\">Cores on which times were measured at once: {}.</p>\n", escapeHtml(cores));
+}
+
 // The page with the results of one program.
 class Page {
  public:
@@ -195,7 +202,8 @@ std::string Page::section(const std::string& study) const {
   } catch (const Misuse& old) {  // a table of another version
     html += fmt::format("<p>{}</p>\n", escapeHtml(old.what()));
   }
-  return html + driftHtml(folder(study) / "runs.csv") + tableLinks(study) + ordersOf(study) + ratiosOf(study) +
+  const auto runs = folder(study) / "runs.csv";
+  return html + coresHtml(runs) + driftHtml(runs) + tableLinks(study) + ordersOf(study) + ratiosOf(study) +
          figuresOf(study) + "</section>\n";
 }
 

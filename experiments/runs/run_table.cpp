@@ -70,6 +70,13 @@ std::vector<std::string_view> laterFields() {
   return names;
 }
 
+// What setNotTimed adds to `detail`.
+constexpr std::string_view kNotTimed = "not timed: ";
+void forgetCause(std::string& detail) {
+  const auto at = detail.find(kNotTimed);
+  if (at != detail.npos) detail.erase(at < 2 ? 0 : at - 2);  // with "; "
+}
+
 }  // namespace
 
 double largestChange(const std::vector<InvariantChange>& invariants) {
@@ -148,6 +155,7 @@ std::vector<RunSeries> seriesOf(const Table& runs) {
 }
 
 void setTiming(const Table& table, TableRow& row, const Timing& timing) {
+  forgetCause(row[table.column("detail")]);
   row[table.column("cpu_s")] = numberText(timing.minimum_s);
   row[table.column("cpu_setup_s")] = numberText(timing.setup_s);
   row[table.column("cpu_median_s")] = numberText(timing.median_s);
@@ -157,6 +165,13 @@ void setTiming(const Table& table, TableRow& row, const Timing& timing) {
   for (const double seconds : timing.all_s) all += (all.empty() ? "" : " ") + numberText(seconds);
   row[table.column("cpu_all")] = all;
   row[table.column("cpu_environment")] = thisEnvironment().front();
+  row[table.column("date")] = dateText();
+}
+
+void setNotTimed(const Table& table, TableRow& row, const std::string& cause) {
+  auto& detail = row[table.column("detail")];
+  forgetCause(detail);
+  detail += (detail.empty() ? "" : "; ") + std::string(kNotTimed) + cause;
   row[table.column("date")] = dateText();
 }
 

@@ -37,6 +37,9 @@ struct Timing {
 };
 /// Writes times that were measured here and now.
 void setTiming(const Table& table, TableRow& row, const Timing& timing);
+/// Says at the end of `detail` why the run could not be timed now. Times that it has stay; the next setTiming takes the
+/// text away.
+void setNotTimed(const Table& table, TableRow& row, const std::string& cause);
 /// Resets the timing columns, as if the run had not been timed.
 void forgetTiming(const Table& table, TableRow& row);
 

@@ -1,6 +1,7 @@
 #include "experiments/store/calibration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "experiments/base/clock.h"
@@ -49,6 +51,11 @@ std::size_t columnOf(const Rows& rows, std::string_view name) {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
 }
 
+// An id that no other row has. `measured`: a number of the row.
+std::string newId(double measured) {
+  return hexText(fnv1a(fmt::format("{} {} {} {} {}", hostName(), getpid(), dateText(), wallSeconds(), measured)));
+}
+
 std::string doubtsOf(const HostCalibrations& host, double fastest) {
   const double least = *std::min_element(host.seconds.begin(), host.seconds.end());
   const double most = *std::max_element(host.seconds.begin(), host.seconds.end());
@@ -84,9 +91,7 @@ double calibrationSeconds() {
 }
 
 TableRow calibrationRow(double seconds) {
-  const std::string id =
-      hexText(fnv1a(fmt::format("{} {} {} {} {}", hostName(), getpid(), dateText(), wallSeconds(), seconds)));
-  return {id, thisEnvironment().front(), dateText(), numberText(seconds)};
+  return {newId(seconds), thisEnvironment().front(), dateText(), numberText(seconds)};
 }
 
 std::string calibrationDoubts(std::vector<HostCalibrations> hosts) {
@@ -100,6 +105,38 @@ std::string calibrationDoubts(std::vector<HostCalibrations> hosts) {
   for (const auto& host : hosts) {
     const auto doubts = doubtsOf(host, fastest[host.processor]);
     if (!doubts.empty()) text += (text.empty() ? "" : "; ") + doubts;
+  }
+  return text;
+}
+
+std::vector<std::string> coresColumns() {
+  return {"trial", "environment", "date", "cores_at_once", "elimination_slower", "vectors_slower", "taken"};
+}
+
+TableRow coresRow(const CoresTrial& trial) {
+  return {newId(trial.cores),
+          thisEnvironment().front(),
+          dateText(),
+          std::to_string(trial.cores),
+          numberText(trial.elimination),
+          numberText(trial.vectors),
+          trial.taken ? "1" : "0"};
+}
+
+std::string takenCores(const Rows& trials, const Rows& environments) {
+  const auto host = columnOf(environments, "host"), cores = columnOf(trials, "cores_at_once"),
+             taken = columnOf(trials, "taken");
+  std::map<std::string, std::set<int>> by_host;
+  trials.forEach([&](const Entry& entry) {
+    const TableRow row = trials.row(entry);
+    const auto environment = environments.find(keyNumber(trials.name(entry.environment)));
+    if (row[taken] == "1") {
+      by_host[environment ? environments.row(*environment)[host] : "unknown"].insert(std::stoi(row[cores]));
+    }
+  });
+  std::string text;
+  for (const auto& [name, numbers] : by_host) {
+    text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", fmt::join(numbers, " or "), name);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // Shows whether the processor kept its speed while times were measured: a fixed computation, timed beside them.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +35,25 @@ std::string calibrationDoubts(std::vector<HostCalibrations> hosts);
 
 /// Joins the calibrations with the hosts of their environments.
 std::vector<HostCalibrations> calibrationsByHost(const Rows& calibrations, const Rows& environments);
+
+/// How many times as long two fixed computations take on so many cores at once as on one alone; NaN: not measured.
+struct CoresTrial {
+  std::size_t cores;  ///< at least 1
+  double elimination, vectors;
+  bool taken;  ///< whether times were then measured on so many cores at once
+};
+
+/// The columns of timing_cores.csv: trial (a number), environment, date, cores_at_once, elimination_slower,
+/// vectors_slower, taken (0 or 1).
+std::vector<std::string> coresColumns();
+
+/// The row of a trial that was made here and now.
+TableRow coresRow(const CoresTrial& trial);
+
+/// The head entry of a runs.csv: on how many cores at once its times were measured, by host: `2 on HOST`.
+inline constexpr std::string_view kTimingCores = "timing cores";
+
+/// Its value; empty without trials.
+std::string takenCores(const Rows& trials, const Rows& environments);
 
 }  // namespace irk::store

@@ -115,6 +115,8 @@ TableHead Store::head(const Origins& origins, const std::string& refusal) const 
   if (!refusal.empty()) head.emplace_back(kTimesRefused, refusal);
   const auto drift = calibrationDoubts(calibrationsByHost(calibrations_, environments_));
   if (!drift.empty()) head.emplace_back(kTimesDrift, drift);
+  const auto cores = takenCores(timing_cores_, environments_);
+  if (!cores.empty()) head.emplace_back(kTimingCores, cores);
   return head;
 }
 
@@ -177,6 +179,7 @@ std::string Store::exportTables(const RunKeys& keys, std::ostream& messages) {
   }
   exportAll(environments_, "environments");
   if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
+  if (timing_cores_.size() > 0) exportAll(timing_cores_, "timing_cores");
   if (states_.size() > 0) exportStates(keys);
   return refusal;
 }

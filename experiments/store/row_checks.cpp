@@ -102,14 +102,14 @@ std::string_view wordFor(Kind kind) {
   return "";
 }
 
-// Of the tables runs, states, environments and calibrations. A setting is checked by the row's key.
+// Of the tables runs, states, environments, calibrations and timing_cores. A setting is checked by the row's key.
 Kind kindOf(const std::string& column) {
   static const std::vector<std::string> counters = [] {
-    std::vector<std::string> names{"cpu_runs", "stages", "cores"};
+    std::vector<std::string> names{"cpu_runs", "stages", "cores", "cores_at_once", "taken"};
     Counters{}.forEach([&names](const char* name, std::int64_t) { names.emplace_back(name); });
     return names;
   }();
-  constexpr std::string_view kHashes[] = {"key", "environment", "calibration"};
+  constexpr std::string_view kHashes[] = {"key", "environment", "calibration", "trial"};
   constexpr std::string_view kMeasured[] = {
       "drift",     "invariant_change", "mescd",        "scd",           "reference_accuracy",
       "cpu_s",     "cpu_setup_s",      "cpu_median_s", "memory_gb",     "cpu_error_bar_s",
@@ -121,7 +121,7 @@ Kind kindOf(const std::string& column) {
   };
   if (column == "outcome") return Kind::kOutcome;
   if (isAmong(kHashes)) return Kind::kHash;
-  if (isAmong(kMeasured) || column.ends_with("_over_time")) return Kind::kNumber;
+  if (isAmong(kMeasured) || column.ends_with("_over_time") || column.ends_with("_slower")) return Kind::kNumber;
   if (column == "cpu_all" || column == "state" || column == "bar") return Kind::kNumbers;
   if (column == "date" || column == "first_date") return Kind::kDate;
   if (column == "remade") return Kind::kRequest;

@@ -10,7 +10,6 @@
 
 #include "experiments/base/failure.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/store/calibration.h"
 #include "experiments/store/row_checks.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
@@ -20,7 +19,7 @@
 namespace irk::store {
 namespace {
 
-constexpr const char* kTables[] = {"runs", "states", "environments", "calibrations"};
+constexpr const char* kTables[] = {"runs", "states", "environments", "calibrations", "timing_cores"};
 
 std::vector<std::string> stateColumns() { return {"key", "state", "bar", "code", "date"}; }
 
@@ -54,14 +53,15 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
       runs_(folder_, kTables[0], runColumns(), buildInfo().code),
       states_(folder_, kTables[1], stateColumns(), buildInfo().code),
       environments_(folder_, kTables[2], environmentColumns(), ""),
-      calibrations_(folder_, kTables[3], calibrationColumns(), "") {
+      calibrations_(folder_, kTables[3], calibrationColumns(), ""),
+      timing_cores_(folder_, kTables[4], coresColumns(), "") {
   if (use == Use::kWrite) {
     lock_.emplace(folder_, options.if_locked, messages);
     adoptFormerTable(messages);
   }
   const auto damage = use == Use::kWrite ? Rows::Damage::kSetAside : Rows::Damage::kReport;
   std::size_t unsealed = 0;
-  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_}) {
+  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_, &timing_cores_}) {
     rows->read(damage, messages);
     unsealed += rows->unsealedParts();
   }
@@ -92,7 +92,7 @@ void Store::adoptFormerTable(std::ostream& messages) {
   }
   if (rows == 0) return;
   std::filesystem::create_directories(folder_ / "parts");
-  for (const auto* table : {&calibrations_, &environments_, &states_, &runs_}) {
+  for (const auto* table : {&timing_cores_, &calibrations_, &environments_, &states_, &runs_}) {
     const auto from = folder_ / (table->kind() + ".csv");
     if (!std::filesystem::is_regular_file(from)) continue;
     const auto part = folder_ / "parts" / (partName(table->kind(), 1) + ".taken_in.csv");
@@ -132,6 +132,11 @@ void Store::addCalibration(double seconds) {
   calibrations_.append(calibrationRow(seconds));
 }
 
+void Store::addCores(const CoresTrial& trial) {
+  addEnvironment();
+  timing_cores_.append(coresRow(trial));
+}
+
 void Store::addRun(TableRow row) {
   addEnvironment();
   const std::uint64_t key = keyNumber(row.front());
@@ -154,6 +159,7 @@ std::size_t Store::takeOver(const Store& other) {
   };
   takeMissing(environments_, other.environments_);
   takeMissing(calibrations_, other.calibrations_);
+  takeMissing(timing_cores_, other.timing_cores_);
   const auto rank = [](const Rows& rows, const Entry& entry) {
     return std::pair(rows.merit(entry), entry.repetitions);
   };

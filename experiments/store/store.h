@@ -2,10 +2,11 @@
 //
 //   results/<study>/lock                        held by the current writer
 //                   parts/runs.<number>.<host>.<process>.csv
-//                                               rows of one process; likewise states, environments and calibrations
+//                                               rows of one process; likewise states, environments, calibrations and
+//                                               timing_cores
 //                   parts/….damaged             lines that could not be read
-//                   runs.csv, states.csv, environments.csv, calibrations.csv   for people and gnuplot: the study's
-//                                               runs in its order
+//                   runs.csv, states.csv, environments.csv, calibrations.csv, timing_cores.csv   for people and
+//                                               gnuplot: the study's runs in its order
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "experiments/store/calibration.h"
 #include "experiments/store/lock.h"
 #include "experiments/store/rows.h"
 #include "experiments/store/run_keys.h"
@@ -67,6 +69,8 @@ class Store {
   void addTimes(TableRow row);
   /// Stores a calibration that was measured here and now, in seconds.
   void addCalibration(double seconds);
+  /// Stores a trial of cores that was made here and now.
+  void addCores(const CoresTrial& trial);
   /// `bar`: the error bars of the state, which may be empty.
   void addState(const std::string& key, const std::string& state, const std::string& bar);
   /// Copies the rows of `other` that this store does not have, and runs with their states that are better: by the first
@@ -80,10 +84,11 @@ class Store {
   using TakeRun = std::function<void(const Entry& entry, const std::string& blocks)>;
   void forEachRun(const RunKeys& keys, const TakeRun& take) const;
 
-  /// Writes runs.csv, environments.csv and, if there are any, states.csv and calibrations.csv: the rows of these keys
-  /// in this order, with a column of blocks if the keys have them. Each file is written beside its target and renamed.
-  /// A row of runs whose key is not that of its own settings is set aside and left out, with a line on `messages`; its
-  /// run counts as not made. Returns the reason if times of several timing classes are refused, or an empty text.
+  /// Writes runs.csv, environments.csv and, if there are any, states.csv, calibrations.csv and timing_cores.csv: the
+  /// rows of these keys in this order, with a column of blocks if the keys have them. Each file is written beside its
+  /// target and renamed. A row of runs whose key is not that of its own settings is set aside and left out, with a line
+  /// on `messages`; its run counts as not made. Returns the reason if times of several timing classes are refused, or
+  /// an empty text.
   std::string exportTables(const RunKeys& keys, std::ostream& messages);
 
  private:
@@ -101,7 +106,7 @@ class Store {
   StoreOptions options_;
   std::uint32_t request_ = 0;  // the number of this request to make runs again; 0: there is none
   std::optional<Lock> lock_;
-  Rows runs_, states_, environments_, calibrations_;
+  Rows runs_, states_, environments_, calibrations_, timing_cores_;
   std::set<std::uint64_t> wrong_keys_;  // of rows that were set aside
 };
 

@@ -16,7 +16,7 @@ namespace irk {
 
 struct Analysis;  // analysis.h
 
-/// The serial timing pass.
+/// The timing pass.
 struct TimingOptions {
   bool wanted = false;
   double min_time_s = 0.02;   ///< > 0. Google Benchmark repeats a run until this much time is spent

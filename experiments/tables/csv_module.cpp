@@ -26,8 +26,9 @@ std::string quotedName(const std::string& name) {
 namespace {
 
 // Hashes such as 12345678 or 1e5, and lists that may have one number only.
-constexpr std::string_view kTextColumns[] = {"key",    "code",    "environment", "cpu_environment", "calibration",
-                                             "commit", "version", "cpu_all",     "state",           "bar"};
+constexpr std::string_view kTextColumns[] = {"key",         "code",  "environment", "cpu_environment",
+                                             "calibration", "trial", "commit",      "version",
+                                             "cpu_all",     "state", "bar"};
 
 struct CsvSource {
   std::filesystem::path file;

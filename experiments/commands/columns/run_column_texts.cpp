@@ -56,7 +56,7 @@ constexpr ColumnText kRunColumns[] = {
     {"cpu_all", "s", "Each timed call, in the order in which they were made."},
     {"cpu_environment", "", "Where the times were measured: a row of environments.csv."},
     {"cpu_error_bar_s", "s", "CPU time of the second integration, which measures the error bar."},
-    {"detail", "", "Why the run failed, and why it has no error or no error bar, in one line."},
+    {"detail", "", "Why the run failed, and why it has no error, no error bar or no times, in one line."},
     {"files", "", "The user's files that the run needs: absolute paths with ':' between them."},
     {"code", "", "A hash of the sources that determine numbers. Rows of other code are kept but not used."},
     {"environment", "", "Where the row was made: a row of environments.csv."},

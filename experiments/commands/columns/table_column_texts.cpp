@@ -25,6 +25,15 @@ constexpr ColumnText kCalibrations[] = {
     {"date", "", "When it was measured, in UTC."},
     {"calibration_s", "s", "CPU time of the fixed computation, the least of three."},
 };
+constexpr ColumnText kTimingCores[] = {
+    {"trial", "", "A running number."},
+    {"environment", "", "A row of environments.csv."},
+    {"date", "", "When it was made, in UTC."},
+    {"cores_at_once", "", "The number of cores on which two fixed computations ran at once."},
+    {"elimination_slower", "", "CPU time of the elimination over that on one core alone; nan: not measured."},
+    {"vectors_slower", "", "The same for the sum of vectors of 48 MiB."},
+    {"taken", "", "1: times were then measured on so many cores at once; 0: not."},
+};
 constexpr ColumnText kStates[] = {
     {"key", "", "The run: a row of runs.csv."},
     {"state", "those of the components", "u, v, x, z at the end, with blanks between them."},
@@ -219,6 +228,8 @@ constexpr ColumnText kParallel[] = {
 constexpr TableText kRunTables[] = {
     {"environments.csv", "a machine with a build", SharedColumns::kNone, kEnvironments},
     {"calibrations.csv", "a fixed computation, timed beside the runs", SharedColumns::kNone, kCalibrations},
+    {"timing_cores.csv", "a number of cores on which times might be measured at once", SharedColumns::kNone,
+     kTimingCores},
     {"states.csv", "the state at the end of a run (studies that keep states)", SharedColumns::kNone, kStates},
     {"irk solve --out FILE.csv",
      "a step, a point, or a side of a switch; SCENE.METHOD.csv of studies with trajectories has the same columns",

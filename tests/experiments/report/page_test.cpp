@@ -150,6 +150,18 @@ TEST_F(ReportPage, SaysWhereTheClockRateChanged) {
   EXPECT_EQ(html.find("the clock rate", at + 1), html.npos) << "not in the sections of other studies";
 }
 
+TEST_F(ReportPage, SaysOnHowManyCoresTimesWereMeasured) {
+  const std::string text = "Cores on which times were measured at once";
+  EXPECT_EQ(page().find(text), std::string::npos);
+  const auto file = results_ / "scenes" / "runs.csv";
+  Table runs = readTable(file);
+  runs.head.emplace_back("timing cores", "4 on a, 1 or 2 on b");
+  writeTable(file, runs);
+  const std::string html = page();
+  EXPECT_GT(html.find(text + ": 4 on a, 1 or 2 on b."), html.find("id=\"study_scenes\""));
+  EXPECT_NE(html.find(text), std::string::npos);
+}
+
 // A question in bold has no second stop; a figure of one named file links that file only.
 TEST_F(ReportPage, CaptionsEndOnceAndLinkWhatIsDrawn) {
   for (const auto* file : {"stick_slip.radau_iia_5.csv", "stick_slip_Fs_1_k_100_v0_0_vb_0_x0_0.105.radau_iia_5.csv"}) {
