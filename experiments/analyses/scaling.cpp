@@ -105,7 +105,9 @@ Table scalingSlopes(const Table& scaling) {
                {}};
   std::map<TableRow, Points> series;
   for (const auto& row : scaling.rows) {
-    const double n = numberAt(scaling, row, "n"), time = numberAt(scaling, row, "step_s");
+    // As in plots/scaling.gp: other load does not disturb the CPU clock, but it does not see the other threads.
+    const bool one_thread = textAt(scaling, row, "threads") == "1";
+    const double n = numberAt(scaling, row, "n"), time = numberAt(scaling, row, one_thread ? "step_cpu_s" : "step_s");
     if (!(time > 0)) continue;
     TableRow name;
     for (const char* column : {"scene", "formulation", "solver", "storage", "threads"}) {

@@ -14,9 +14,10 @@ namespace irk {
 /// step_cpu_s (of the calling thread), iterations (of Newton per step).
 Table scalingTable(const Study& study, const RunFile& runs, std::ostream& progress);
 
-/// Least-squares slopes of log step_s over log n for n >= 200 and over log stages, from rows of scaling.csv that
-/// differ in nothing else. Columns: scene, formulation, solver, storage, threads, over (`n` or `stages`), at (the
-/// value of the fixed one: method, or n), slope, confidence (95 %), points.
+/// Least-squares slopes of the log of the time of a step, step_cpu_s of one thread and step_s of several, over log n
+/// for n >= 200 and over log stages, from rows of scaling.csv that differ in nothing else. Columns: scene, formulation,
+/// solver, storage, threads, over (`n` or `stages`), at (the value of the fixed one: method, or n), slope, confidence
+/// (95 %), points.
 Table scalingSlopes(const Table& scaling);
 
 }  // namespace irk

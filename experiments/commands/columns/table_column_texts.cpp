@@ -209,7 +209,7 @@ constexpr ColumnText kScalingSlopes[] = {
     {"threads", "", "Threads of one run."},
     {"over", "", "n or stages."},
     {"at", "", "What is kept: the method, or n."},
-    {"slope", "", "The slope of log step_s over log n (n >= 200) or log stages."},
+    {"slope", "", "The slope of log step_cpu_s (of several threads, log step_s) over log n (n >= 200) or log stages."},
     {"confidence", "", "Half the width of its 95 % interval."},
     {"points", "", "The number of points."},
 };
