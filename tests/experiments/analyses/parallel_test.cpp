@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <sstream>
+#include <thread>
 
+#include "experiments/base/interrupt.h"
 #include "experiments/runs/run_table.h"
 #include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
@@ -51,6 +55,34 @@ t_end = 1e-3
     EXPECT_NEAR(at(i, "speedup"), work * at(i - i % 2, "wall_s") / at(i, "wall_s"), 1e-9 * at(i, "speedup"));
     EXPECT_NEAR(at(i, "efficiency"), at(i, "speedup") / p, 1e-9 * at(i, "speedup"));
   }
+}
+
+// Ctrl-C in the first of two runs, which takes seconds: no row has numbers of a measurement that was cut short.
+TEST(Parallel, AnInterruptLeavesNoRowThatIsHalfMeasured) {
+  const auto [study, runs] = runsOf(R"(
+[[block]]
+scene = "beam_chain"
+settings = ["m=120", "m=121"]
+storage = "dense"
+methods = "radau_iia_9"
+steps = [1e-3]
+t_end = 0.1
+)");
+  std::ostringstream told;
+  Table table;
+  {
+    const InterruptScope interrupts;
+    std::thread user([] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      std::raise(SIGINT);
+    });
+    table = parallelTable(study, runs, {1, 2}, told);
+    user.join();
+    EXPECT_TRUE(interruptFlag());
+  }
+  const InterruptScope uninterrupted;  // the flag is false again
+  EXPECT_TRUE(table.rows.empty()) << textAt(table, table.rows.front(), "wall_s");
+  EXPECT_EQ(told.str(), "") << "no run is measured";
 }
 
 // The row of a study tells what was used.
