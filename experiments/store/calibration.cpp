@@ -114,12 +114,8 @@ std::vector<std::string> coresColumns() {
 }
 
 TableRow coresRow(const CoresTrial& trial) {
-  return {newId(trial.cores),
-          thisEnvironment().front(),
-          dateText(),
-          std::to_string(trial.cores),
-          numberText(trial.elimination),
-          numberText(trial.vectors),
+  return {newId(trial.cores),          thisEnvironment().front(),     dateText(),
+          std::to_string(trial.cores), numberText(trial.elimination), numberText(trial.vectors),
           trial.taken ? "1" : "0"};
 }
 

@@ -12,8 +12,8 @@ namespace irk {
 /// The measured error of a result, component by component, in the scene's unknowns and their units. NaN: unknown.
 struct ErrorBar {
   Vec<double> u, v, x, z;  ///< |result - second result|, and what located switches add (measureErrorBar)
-  /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x, with |y_i| the smaller one of the two results';
-  /// NaN if the bar is unknown.
+  /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x, with the smaller |y_i| of the two results; NaN
+  /// if the bar is unknown.
   double tolerances = std::numeric_limits<double>::quiet_NaN();
   /// |t - second t| of a run that ends at a switch (stop_at); NaN of others.
   double t = std::numeric_limits<double>::quiet_NaN();
