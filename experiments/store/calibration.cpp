@@ -52,7 +52,7 @@ std::size_t columnOf(const Rows& rows, std::string_view name) {
 }
 
 // An id that no other row has. `measured`: a number of the row.
-std::string newId(double measured) {
+std::string newId(const auto& measured) {
   return hexText(fnv1a(fmt::format("{} {} {} {} {}", hostName(), getpid(), dateText(), wallSeconds(), measured)));
 }
 
