@@ -98,7 +98,7 @@ TEST(IndependentSpec, DiffersInAllThatAMethodIsMadeOf) {
   EXPECT_EQ(second.options.order, OrderControl::kVariable);
   EXPECT_EQ(second.formulation, Formulation::kIndex2);
   EXPECT_EQ(second.discontinuity, Discontinuity::kLocate);
-  EXPECT_EQ(second.options.derivatives, DerivativeSource::kCentral);
+  EXPECT_EQ(second.options.derivatives, DerivativeSource::kAutomatic);
   EXPECT_EQ(second.options.step.h_max, 0.1);
   EXPECT_DOUBLE_EQ(second.options.tolerances.rtol, 1e-5);
   EXPECT_DOUBLE_EQ(second.options.tolerances.atol, 1e-6);
