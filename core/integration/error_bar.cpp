@@ -99,9 +99,11 @@ class SmallComponents {
   // Whether this integration has found a further one.
   bool found() const { return found_; }
 
-  // The components that were found small: "x[2]", "x[2] and 3 more".
+  // The components that were found small, "x[2]" or "x[2] and 3 more": those that are at the last step, if any are.
   std::string names(const Sizes& sizes) const {
-    const auto isSmall = [](const Component& c) { return c.small; };
+    const auto isNow = [](const Component& c) { return c.small && c.begins_below; };
+    const bool any_now = std::any_of(of_.begin(), of_.end(), isNow);
+    const auto isSmall = [&](const Component& c) { return any_now ? isNow(c) : c.small; };
     const auto first = std::find_if(of_.begin(), of_.end(), isSmall);
     const auto count = std::count_if(of_.begin(), of_.end(), isSmall);
     return componentName(sizes, first - of_.begin()) + (count > 1 ? " and " + std::to_string(count - 1) + " more" : "");

@@ -147,7 +147,8 @@ std::string numberText(const Part& part, const Judgement& judgement) {
 }
 
 std::string explainedNumber(const Part& part, const Judgement& judgement) {
-  return numberText(part, judgement) + (std::isinf(judgement.value) ? ": " + judgement.remark : "");
+  const bool explained = std::isinf(judgement.value) && !judgement.remark.empty();
+  return numberText(part, judgement) + (explained ? " (" + judgement.remark + ")" : "");
 }
 
 Verdict combined(const std::vector<Verdict>& parts) {

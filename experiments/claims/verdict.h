@@ -54,7 +54,7 @@ Judgement judge(const Part& part, const Measurement& measured, const Sample& lea
 
 /// `1.52 [1.49, 1.55] times`; `3 of 12 cases`; `infinite`; `–` without cases.
 std::string numberText(const Part& part, const Judgement& judgement);
-/// The same; behind an infinite one the remark of its measurement, which says why: `infinite: 9 of 12 runs fail.`.
+/// The same; behind an infinite one the remark of its measurement, which says why: `infinite (9 of 12 runs fail.)`.
 std::string explainedNumber(const Part& part, const Judgement& judgement);
 
 /// The verdict on a claim by the verdicts on its parts: contradicted if one part is; otherwise not measurable if one

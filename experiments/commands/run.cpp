@@ -242,13 +242,13 @@ StudiesProgress paperProgress(StudyVariant variant) {
 int runCommand(const RunOptions& options, Streams streams) {
   const Study study = loadStudy(options.study, options.variant, options.peers);
   const FigureTables figures = figuresOfStudy(study, options.study);
-  if (isStudyFile(options.study)) keepStudyFile(options.study, studyFolder(study, options.runner));
   const auto ranks = joinRanks();
-  const auto requireCores = [&] {
+  const auto checkThenKeepFile = [&] {
     if (timingShare(*ranks, options.runner)) cores::requireCores(options.runner.timing_cores);
+    if (isStudyFile(options.study)) keepStudyFile(options.study, studyFolder(study, options.runner));
   };
   if (ranks->count() == 1) {
-    requireCores();
+    checkThenKeepFile();
     const InterruptScope interrupts;
     return runOne(study, figures, options.runner, *ranks, streams);
   }
@@ -262,7 +262,7 @@ int runCommand(const RunOptions& options, Streams streams) {
   };
   int status = 0;
   try {
-    requireCores();
+    checkThenKeepFile();
     if (ranks->rank() == 0) {
       status = runStored(study, figures, each, *ranks, streams);
     } else {

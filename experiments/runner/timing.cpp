@@ -246,9 +246,11 @@ double timeCall(const std::function<void()>& call, double min_time_s) {
   benchmark::RegisterBenchmark("call", [&call](benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) call();
   })->MinTime(min_time_s);
+  struct Cleared {
+    ~Cleared() { benchmark::ClearRegisteredBenchmarks(); }
+  } const cleared;  // also if the call throws
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector);
-  benchmark::ClearRegisteredBenchmarks();
   return collector.seconds;
 }
 

@@ -39,8 +39,9 @@ std::optional<TimingShare> timingShare(Ranks& ranks, const RunnerOptions& option
 /// the store's options say). Writes the columns cpu_s (minimum), cpu_setup_s, cpu_median_s, cpu_spread, cpu_runs,
 /// cpu_all. It times the whole call as a user makes it: set-up and integration. Each round of repetitions covers the
 /// whole study, so that a machine that is slow for some seconds does not slow all repetitions of a run. Every new time
-/// is a new row of the store: after an interrupt only the missing ones are measured. A calibration is stored before the
-/// first run and then every second. Call it while nothing else runs on this host.
+/// is a new row of the store: after an interrupt only the missing ones are measured. A calibration is measured with the
+/// first run and then every second, and stored with the times of that run. Call it while nothing else runs on this
+/// host.
 ///
 /// On one core the runs are measured one after the other in this process; on several at once, each in a process of its
 /// own on a core of its own (cores/children.h). A run that has several threads (`threads`) is measured alone, in this

@@ -132,7 +132,8 @@ std::string takenCores(const Rows& trials, const Rows& environments) {
   });
   std::string text;
   for (const auto& [name, numbers] : by_host) {
-    text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", fmt::join(numbers, " or "), name);
+    text += fmt::format("{}{}{} on {}", text.empty() ? "" : ", ", fmt::join(numbers, " or "),
+                        numbers.size() > 1 ? " in different passes" : "", name);
   }
   return text;
 }

@@ -10,7 +10,7 @@
 
 namespace irk::store {
 
-/// The columns of calibrations.csv: calibration (a number), environment, date, calibration_s.
+/// The columns of calibrations.csv: calibration (an id), environment, date, calibration_s.
 std::vector<std::string> calibrationColumns();
 
 /// Seconds of the thread's CPU clock that a fixed computation takes, the least of three. About 3 ms in all.
@@ -43,7 +43,7 @@ struct CoresTrial {
   bool taken;  ///< whether times were then measured on so many cores at once
 };
 
-/// The columns of timing_cores.csv: trial (a number), environment, date, cores_at_once, elimination_slower,
+/// The columns of timing_cores.csv: trial (an id), environment, date, cores_at_once, elimination_slower,
 /// vectors_slower, taken (0 or 1).
 std::vector<std::string> coresColumns();
 

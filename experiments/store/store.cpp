@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <ostream>
+#include <tuple>
 #include <utility>
 
 #include "experiments/base/failure.h"
@@ -15,6 +16,7 @@
 #include "experiments/tables/environment.h"
 #include "experiments/tables/new_file.h"
 #include "experiments/tables/timing_class.h"
+#include "irk/outcome.h"
 
 namespace irk::store {
 namespace {
@@ -161,7 +163,8 @@ std::size_t Store::takeOver(const Store& other) {
   takeMissing(calibrations_, other.calibrations_);
   takeMissing(timing_cores_, other.timing_cores_);
   const auto rank = [](const Rows& rows, const Entry& entry) {
-    return std::pair(rows.merit(entry), entry.repetitions);
+    const bool ended = rows.name(entry.outcome) != name(Outcome::kTimeout);
+    return std::tuple(rows.merit(entry), ended, entry.repetitions);
   };
   std::size_t taken = 0;
   other.runs_.forEach([&](const Entry& entry) {

@@ -74,7 +74,8 @@ class Store {
   /// `bar`: the error bars of the state, which may be empty.
   void addState(const std::string& key, const std::string& state, const std::string& bar);
   /// Copies the rows of `other` that this store does not have, and runs with their states that are better: by the first
-  /// three criteria of Rows, then by more repetitions of times. Returns the number of copied runs.
+  /// three criteria of Rows, then one that has not run out of time, then by more repetitions of times. Returns the
+  /// number of copied runs.
   std::size_t takeOver(const Store& other);
 
   /// Whether the times of the row are of this program's timing class (tables/timing_class.h).

@@ -20,13 +20,13 @@ constexpr ColumnText kEnvironments[] = {
     {"first_date", "", "When it was first used, in UTC."},
 };
 constexpr ColumnText kCalibrations[] = {
-    {"calibration", "", "A running number."},
+    {"calibration", "", "An id."},
     {"environment", "", "A row of environments.csv."},
     {"date", "", "When it was measured, in UTC."},
     {"calibration_s", "s", "CPU time of the fixed computation, the least of three."},
 };
 constexpr ColumnText kTimingCores[] = {
-    {"trial", "", "A running number."},
+    {"trial", "", "An id."},
     {"environment", "", "A row of environments.csv."},
     {"date", "", "When it was made, in UTC."},
     {"cores_at_once", "", "The number of cores on which two fixed computations ran at once."},

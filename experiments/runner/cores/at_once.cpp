@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/base/clock.h"
-#include "experiments/base/failure.h"
 #include "experiments/base/median.h"
 #include "experiments/runner/cores/children.h"
 #include "experiments/runner/cores/processors.h"
@@ -73,9 +73,10 @@ KernelSeconds measureOn(const std::vector<int>& processors, std::size_t cores) {
           return std::vector{medianOf(store::calibrationSeconds), vectorSeconds()};
         },
         [&slowest](const Answer& answer) {
-          if (!answer.failure.empty()) throw Failure("the calibration of cores: " + answer.failure);
-          slowest.elimination = std::max(slowest.elimination, answer.numbers[0]);
-          slowest.vectors = std::max(slowest.vectors, answer.numbers[1]);
+          constexpr double kNever = std::numeric_limits<double>::infinity();
+          const bool failed = !answer.failure.empty();
+          slowest.elimination = std::max(slowest.elimination, failed ? kNever : answer.numbers[0]);
+          slowest.vectors = std::max(slowest.vectors, failed ? kNever : answer.numbers[1]);
         });
   }
   children.finish();
@@ -90,7 +91,11 @@ std::string textOf(const std::vector<store::CoresTrial>& trials, std::size_t ava
   const std::size_t taken = takenOf(trials);
   auto text = fmt::format("{} of {} at once", taken, coresText(available));
   for (const auto& trial : trials) {
-    if (trial.cores == 1 || std::isnan(trial.elimination)) continue;
+    if (trial.cores == 1 || std::isnan(trial.elimination)) continue;  // not tried
+    if (!std::isfinite(trial.elimination)) {
+      text += fmt::format("; on {} two fixed computations cannot be made", coresText(trial.cores));
+      continue;
+    }
     text += fmt::format("; on {} two fixed computations take {:.2f} and {:.2f} times as long as on one alone",
                         coresText(trial.cores), trial.elimination, trial.vectors);
     if (!trial.taken && trial.cores > taken) text += fmt::format(", allowed are {}", kUndisturbed);
@@ -99,11 +104,13 @@ std::string textOf(const std::vector<store::CoresTrial>& trials, std::size_t ava
 }
 
 void requireCores(int asked) {
+  if (asked == 0 || asked == 1) return;
   const std::size_t available = physicalCores().size();
-  if (asked >= 0 && static_cast<std::size_t>(asked) <= available) return;
+  if (asked > 0 && static_cast<std::size_t>(asked) <= available) return;
   throw Misuse(
       fmt::format("timing-cores = {}: an integer from 1 to {} is expected, the cores that this process may "
-                  "use, or 0 for as many as do not disturb each other",
+                  "use (OMP_PROC_BIND and GOMP_CPU_AFFINITY bind it to fewer), or 0 for as many as do not disturb each "
+                  "other",
                   asked, available));
 }
 

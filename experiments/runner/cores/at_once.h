@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,7 @@ inline constexpr double kUndisturbed = 1.03;
 struct KernelSeconds {
   double elimination, vectors;
 };
-/// Measures on so many cores at once; of several cores the slowest counts.
+/// Measures on so many cores at once; of several cores the slowest counts, with infinite seconds if it fails.
 using MeasureCores = std::function<KernelSeconds(std::size_t cores)>;
 
 /// Measures 1, 2, 4, ... and `most` cores (at least 1) up to the first number on which one of the computations is

@@ -44,10 +44,12 @@ std::string endText(int status) {
 }
 
 // In the child.
-[[noreturn]] void answerThrough(int pipe, int processor, pid_t parent, const Call& call) {
+[[noreturn]] void answerThrough(int pipe, int processor, pid_t parent, const Call& call) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it has ended before that line
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  // A crash ends this process only, and the parent says so.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) std::signal(signal, SIG_DFL);
   const std::string message = messageOf(answerOf([&] {
     pinTo(processor);
     return call();
@@ -73,7 +75,8 @@ Answer answerOf(const Call& call) {
   try {
     return {call(), {}};
   } catch (const std::exception& exception) {
-    return {{}, exception.what()};
+    const std::string text = exception.what();
+    return {{}, text.empty() ? "an exception without a text" : text};
   } catch (...) {
     return {{}, "an exception of unknown kind"};
   }

@@ -50,9 +50,7 @@ std::vector<int> physicalCores(const std::vector<int>& allowed, const std::files
 
 std::vector<int> physicalCores() {
   cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) != 0) {
-    throw Failure(fmt::format("the processors of this process are not known: {}", std::strerror(errno)));
-  }
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return {sched_getcpu()};  // more than CPU_SETSIZE of them
   std::vector<int> allowed;
   for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
     if (CPU_ISSET(static_cast<std::size_t>(processor), &set)) allowed.push_back(processor);

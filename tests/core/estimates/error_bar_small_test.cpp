@@ -123,6 +123,26 @@ TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
   EXPECT_NE(run.bar.remark.find("takes too many steps"), std::string::npos) << run.bar.remark;
 }
 
+/// An oscillator, whose velocity begins with zero, beside the component of FastAndSmall.
+struct OscillatorBesideFastAndSmall {
+  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.u[0] = -p.u[0] - p.a[0];
+    r.x[0] = -p.x[0] + 1e-8 * sin(1e6 * p.t) - p.k[0];
+  }
+};
+
+// The velocity is small in the first, tiny step only.
+TEST(ErrorBarOfSmallComponents, TheRemarkNamesTheOneThatStaysSmall) {
+  State<double> start(OscillatorBesideFastAndSmall{}.sizes());
+  start.u[0] = 1;
+  start.x[0] = 1e-14;
+  const SmallRun run = measuredSmall(OscillatorBesideFastAndSmall{}, start, 1, embedded(1e-3));
+  EXPECT_NE(run.bar.remark.find("what comes of x[0], below"), std::string::npos) << run.bar.remark;
+}
+
 /// A pendulum beside a component x = 1e-9 e^(10 t): position constraints have multipliers.
 struct PendulumBesideGrowth {
   Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }

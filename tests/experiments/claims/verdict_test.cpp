@@ -126,7 +126,7 @@ TEST(ClaimVerdict, InfiniteValuesAreSaidWithTheirCause) {
   Measurement all = scenes({kInfinity, kInfinity, kInfinity});
   all.remark = "9 of 9 runs fail.";
   EXPECT_EQ(numberText(part, judge(part, all)), "infinite");
-  EXPECT_EQ(explainedNumber(part, judge(part, all)), "infinite: 9 of 9 runs fail.");
+  EXPECT_EQ(explainedNumber(part, judge(part, all)), "infinite (9 of 9 runs fail.)");
   const Measurement one = scenes({2, 2, kInfinity});
   EXPECT_EQ(numberText(part, judge(part, one)), "2 [2, infinite] times");
   EXPECT_EQ(explainedNumber(part, judge(part, one)), "2 [2, infinite] times");

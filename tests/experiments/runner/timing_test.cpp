@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -38,6 +39,14 @@ TEST(TimeCall, IsOfOneCall) {
   const double seconds = timeCall(std::ref(call), 0.02);
   ASSERT_GT(call.calls, 20);
   EXPECT_NEAR(seconds, call.spent / call.calls, 0.5 * call.spent / call.calls);
+}
+
+TEST(TimeCall, LeavesNothingBehindAfterAnException) {
+  int thrown = 0, calls = 0;
+  EXPECT_THROW(timeCall([&] { ++thrown, throw std::runtime_error("no"); }, 1e-4), std::runtime_error);
+  timeCall([&] { ++calls; }, 1e-4);
+  EXPECT_EQ(thrown, 1);
+  EXPECT_GT(calls, 0);
 }
 
 TEST(TimeCall, CountsNoTimeAsleep) {

@@ -121,6 +121,12 @@ TEST_F(Order, OfFoldersIsByRepetitionsThenTheFirst) {
   EXPECT_EQ(validIn(one), many);
 }
 
+TEST_F(Order, OfFoldersPrefersARunThatHadTimeEnough) {
+  const TableRow ended = row({{"outcome", "success"}}), late = row({{"outcome", "timeout"}});
+  EXPECT_EQ(mergedOf({treeOf(late), treeOf(ended)}), ended);
+  EXPECT_EQ(mergedOf({treeOf(ended), treeOf(late)}), ended);
+}
+
 TEST_F(Order, OfStatesIsThatOfTheirRuns) {
   const std::string key = made_.front();
   const auto store = [&](const char* name, const char* state, const Changes& changes) {
