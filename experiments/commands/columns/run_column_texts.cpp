@@ -62,9 +62,9 @@ constexpr ColumnText kRunColumns[] = {
     {"environment", "", "Where the row was made: a row of environments.csv."},
     {"date", "", "When the row was written, in UTC."},
     {"remade", "",
-     "The number of the last --fresh that asked for the run: 1, 2, ..., or more than the seconds of a former version's "
-     "date; of a "
-     "former version its date; else empty."},
+     "The number of the last --fresh that asked for the run: one more than any that is stored, where a date of a "
+     "former "
+     "version counts as its seconds. Else empty."},
     {"block", "", "The names of the study's blocks that contain the run."},
 };
 
