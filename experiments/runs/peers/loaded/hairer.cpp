@@ -232,8 +232,11 @@ class Hairer final : public Peer {
     Hairer& self = of(rpar);
     const Evaluated evaluated = self.problem_.rates(*x, y, f);
     if (evaluated == Evaluated::kDone) return;
-    // This callback cannot end the run, but `solout` can. With f = 0 the code soon accepts a step and calls it.
-    std::fill_n(f, self.y_.size(), evaluated == Evaluated::kStop ? 0 : std::numeric_limits<double>::quiet_NaN());
+    // This callback can neither end the run nor refuse an evaluation. With f = 0 the code soon accepts a step and calls
+    // `solout`, which ends the run. A value that is not finite would be accepted (RADAU's error is MAX(NaN, 1e-10) =
+    // 1e-10); a very large rate is a step that fails, which the code repeats with a shorter one.
+    constexpr double kVeryLarge = 1e140;
+    std::fill_n(f, self.y_.size(), evaluated == Evaluated::kStop ? 0 : kVeryLarge);
   }
 
   static void jac(int* n, double* x, double* y, double* dfy, int* ldfy, double* rpar, int*) {
