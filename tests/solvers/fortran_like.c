@@ -11,6 +11,8 @@ enum { kBanded, kLower, kUpper, kM1, kMass, kMassBanded, kIndex2, kIndex3, kCall
 int standin_seen[kSeen];
 /* Calls of radau5_ or rodas_ that began while another one ran. */
 int standin_overlaps;
+/* Rates that are not finite. RADAU would accept a step with them. */
+int standin_not_finite;
 static int running;
 static void enter(void) {
   if (__atomic_add_fetch(&running, 1, __ATOMIC_SEQ_CST) > 1) __atomic_add_fetch(&standin_overlaps, 1, __ATOMIC_SEQ_CST);
@@ -62,6 +64,7 @@ static int euler(equations* e, double x, double h, const double* y0, double* y, 
   memcpy(y, y0, sizeof(double) * (size_t)n);
   for (int k = 0; k < 10; ++k) {
     e->fcn(&e->n, &x, y, e->r, e->rpar, e->ipar);
+    for (int i = 0; i < n; ++i) standin_not_finite += !isfinite(e->r[i]);
     linearize(e, x, y);
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {

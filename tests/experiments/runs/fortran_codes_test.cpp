@@ -200,6 +200,31 @@ TEST(FortranCodes, LimitsAndInterruptsEndARun) {
   }
 }
 
+// x' = -log x from 10 on comes near to 1. With a long step Newton's method passes zero, where the logarithm is NaN.
+struct Logarithm {
+  static Sizes sizes() { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::log;
+    r.x[0] = -log(T(p.x[0])) - p.k[0];
+  }
+};
+
+TEST(FortranCodes, RepeatAStepWhoseRatesAreNotFinite) {
+  Scene<double> scene;
+  scene.id = "logarithm";
+  scene.system = [](const SystemOptions& options) { return makeSystem<double>(Logarithm{}, options); };
+  scene.start = State<double>(Logarithm::sizes());
+  scene.start.x[0] = 10;
+  for (const std::string code : kHairer) {
+    PeerIntegrator integrator(*findPeer(loadMethod(at(code))), scene, spec(code, "scene=kepler;h=20"));
+    const auto solution = integrator.integrate(scene.start, 20);
+    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << code << " " << solution.detail;
+    EXPECT_NEAR(solution.state.x[0], 1, 1e-3) << code;
+  }
+  EXPECT_EQ(*SharedLibrary(kLibrary).get<int>("standin_not_finite"), 0);
+}
+
 TEST(FortranCodes, StepsPassIgnoredSwitches) {
   const auto scene = heatScene(true);
   for (const auto& code : kAll) {
