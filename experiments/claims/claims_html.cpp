@@ -33,8 +33,9 @@ std::string numbersHtml(const ClaimFindings& findings, Setting setting, bool qui
     const Part& part = findings.claim->parts[i];
     const Judgement& judged = findings.parts[i][static_cast<std::size_t>(setting)].judged;
     if (judged.verdict == Verdict::kDoesNotApply) continue;
-    html += fmt::format("<div class=\"number\">{}: {}{}</div>", escapeHtml(part.name),
-                        escapeHtml(explainedNumber(part, judged)),
+    const std::string counted = judged.cases > 0 ? countedText(part) : "";
+    html += fmt::format("<div class=\"number\">{}: {}{}{}</div>", escapeHtml(part.name),
+                        escapeHtml(explainedNumber(part, judged)), counted.empty() ? "" : " " + escapeHtml(counted),
                         quick && judged.cases > 0 ? " <em>preliminary</em>" : "");
   }
   return html;

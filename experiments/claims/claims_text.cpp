@@ -122,14 +122,19 @@ std::string conditionText(const Part& part) {
     case Statistic::kMedian:
       return rangeText(part.confirmed) + unit;
     case Statistic::kShare:
-      return fmt::format("{} {:.4g} % of the cases {}{}", part.confirmed.low_open ? "above" : "at least",
-                         100 * part.confirmed.low, rangeText(part.clean), unit);
+      return fmt::format("{} {:.4g} % {}", part.confirmed.low_open ? "above" : "at least", 100 * part.confirmed.low,
+                         countedText(part));
     case Statistic::kExistence:
       return fmt::format("one case {}{}", rangeText(part.clean), unit);
     case Statistic::kReport:
       return "";
   }
   return "";
+}
+
+std::string countedText(const Part& part) {
+  if (part.statistic != Statistic::kShare) return "";
+  return fmt::format("of the cases {}{}", rangeText(part.clean), part.unit.empty() ? "" : " " + part.unit);
 }
 
 std::string sampleText(const Judgement& judgement) {

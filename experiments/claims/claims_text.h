@@ -10,6 +10,8 @@ namespace irk::claims {
 
 /// When the part is confirmed: `1.35 to 1.65 times`, `at least 95 % of the cases at most 4`.
 std::string conditionText(const Part& part);
+/// Of a share, which cases it counts: `of the cases at most 4`; else empty.
+std::string countedText(const Part& part);
 
 /// `12 cases of 3 scenes: kepler, pendulum, slider_crank`.
 std::string sampleText(const Judgement& judgement);

@@ -96,8 +96,10 @@ std::string claimsText(const ReportOptions& options) {
       const auto number = [&](claims::Setting setting) {
         return claims::explainedNumber(part, findings.parts[i][static_cast<std::size_t>(setting)].judged);
       };
-      numbers.push_back(escapeHtml(
-          fmt::format("{}: {} / {}", part.name, number(claims::Setting::kPaper), number(claims::Setting::kBest))));
+      const std::string condition = claims::conditionText(part);
+      numbers.push_back(escapeHtml(fmt::format("{}: {} / {}{}", part.name, number(claims::Setting::kPaper),
+                                               number(claims::Setting::kBest),
+                                               condition.empty() ? "" : "; confirmed if " + condition)));
     }
     table.rows.push_back({{fmt::format("<a id=\"{0}\"></a>{0}", findings.claim->id), escapeHtml(findings.claim->title),
                            std::string(verdictText(findings.verdict(claims::Setting::kPaper))),
@@ -105,9 +107,9 @@ std::string claimsText(const ReportOptions& options) {
                            fmt::format("{}", fmt::join(numbers, "<br>"))}});
   }
   return markdownTable(table) +
-         "The numbers are those of the two settings; brackets hold 90 % intervals, an en dash means no number. "
-         "`tables/claims.csv` has each part with its condition, its cases and the reason where there is no "
-         "verdict.\n\n";
+         "The numbers are those of the two settings. A percentage is the share of the cases that fulfil the condition, "
+         "not the quantity itself; brackets hold 90 % intervals, an en dash means no number. `tables/claims.csv` has "
+         "each part with its cases and the reason where there is no verdict.\n\n";
 }
 
 // All values of a column, each once.

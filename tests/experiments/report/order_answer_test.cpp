@@ -37,28 +37,30 @@ TEST(OrderFormula, AgreesWithTheoryForFewStages) {
 
 Table orders(const std::vector<Cells>& rows) {
   return tableOf({"scene", "settings", "formulation", "family", "stages", "component", "power_of", "order", "theory",
-                  "h_min", "verdict"},
+                  "source", "h_min", "verdict"},
                  rows);
 }
 
 Cells order(const char* scene, const char* family, const char* component, const char* order, const char* theory,
-            const char* verdict) {
+            const char* verdict, const char* source = "theorem") {
   return {{"scene", scene},  {"formulation", "index2"}, {"family", family}, {"component", component},
           {"power_of", "h"}, {"order", order},          {"theory", theory}, {"h_min", "0.01"},
-          {"stages", "3"},   {"verdict", verdict}};
+          {"stages", "3"},   {"verdict", verdict},      {"source", source}};
 }
 
 TEST(OrderAnswer, CountsWhatAgreesByFamilyAndComponent) {
   claims::ResultTables tables;
   tables.put("order", "orders",
              orders({order("mechanical_dae", "gauss", "u", "4.01", "4", "agrees"),
-                     order("mechanical_dae", "gauss", "u", "5.5", "6", "differs"),
+                     order("mechanical_dae", "gauss", "u", "5.5", "6", "differs", "measured"),
                      order("mechanical_dae", "gauss", "u", "nan", "8", "not_measurable"),
                      order("riccati_tracking", "radau_iia", "x", "3.1", "3", "agrees"),
                      order("mechanical_dae", "gauss", "z", "2", "nan", "no_theory")}));
   const Answer answer = orderAnswer(tables);
-  EXPECT_TRUE(
-      containsAll(answer.sentences.at(0), {"2 of 3 measured orders agree", "difference is 0.5", "1 more series"}));
+  EXPECT_TRUE(containsAll(answer.sentences.at(0),
+                          {"2 of 3 measured orders agree with theory: 2 of 2 with theorems, 0 of 1 with "
+                           "patterns",
+                           "difference is 0.5", "1 more series"}));
   bool found = false;
   for (std::size_t i = 0; i < answer.table.rows.size(); ++i) {
     if (cell(answer.table, i, "system") != "mechanical_index2" || cell(answer.table, i, "component") != "u" ||
