@@ -63,8 +63,7 @@ constexpr ColumnText kRunColumns[] = {
     {"date", "", "When the row was written, in UTC."},
     {"remade", "",
      "The number of the last --fresh that asked for the run: one more than any that is stored, where a date of a "
-     "former "
-     "version counts as its seconds. Else empty."},
+     "former version counts as its seconds. Else empty."},
     {"block", "", "The names of the study's blocks that contain the run."},
 };
 

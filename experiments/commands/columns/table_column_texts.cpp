@@ -49,6 +49,10 @@ constexpr ColumnText kSolution[] = {
     {"switches", "", "The names of the switches at this time, in the row after them."},
     {"components, outputs", "in the head", "A column for each component of u, v, x, z and each output of the scene."},
 };
+constexpr ColumnText kTheorySourceText = {
+    "source", "",
+    "What it rests on: theorem; measured: a pattern found by this suite for up to 5 stages; extrapolated: that pattern "
+    "continued."};
 constexpr ColumnText kOrders[] = {
     {"scene", "", "The scene."},
     {"settings", "", "Its parameters."},
@@ -66,9 +70,7 @@ constexpr ColumnText kOrders[] = {
     {"h_max", kSceneTime, "The largest one."},
     {"points", "", "The number of steps in the fit."},
     {"theory", "", "The order by theory; nan: not known."},
-    {"source", "",
-     "What it rests on: theorem; measured: a pattern found by this suite for up to 5 stages; extrapolated: that "
-     "pattern continued."},
+    kTheorySourceText,
     {"verdict", "", "agrees (within 0.2, beyond order 20 within 1 %), differs, not_measurable, no_theory."},
     {"reason", "", "Why it is not measurable, or a remark on a difference."},
     kBlockText,
@@ -84,9 +86,7 @@ constexpr ColumnText kOrderTheory[] = {
     {"component", "", "u, v, x or z."},
     {"power_of", "", "As in orders.csv."},
     {"theory", "", "The order by theory."},
-    {"source", "",
-     "What it rests on: theorem; measured: a pattern found by this suite for up to 5 stages; extrapolated: that "
-     "pattern continued."},
+    kTheorySourceText,
     kBlockText,
 };
 constexpr ColumnText kCostAtError[] = {

@@ -28,7 +28,8 @@ std::vector<Group> groupsOf(const std::vector<ClaimVerdicts>& claims) {
 std::string countsOf(const std::vector<Group>& groups, std::size_t setting) {
   std::vector<std::string> parts;
   for (const auto& [verdict, ids] : groups) {
-    const std::string_view word = verdict == "does not apply" ? "not applicable" : std::string_view(verdict);
+    const std::string_view word =
+        verdict == verdictText(claims::Verdict::kDoesNotApply) ? "not applicable" : std::string_view(verdict);
     if (!ids[setting].empty()) parts.push_back(fmt::format("{} {}", ids[setting].size(), word));
   }
   return listText(parts);
