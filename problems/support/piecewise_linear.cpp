@@ -72,10 +72,11 @@ Real positiveInside(const F& g, const Real& step, const Real& at_start, const Re
   const auto [least, most] = std::minmax({at_start, middle, at_end});
   if (middle > 0) return step / 2;
   if (most + (most - least) < 0) return 0;  // a peak rises above `most` by less than the three values differ
-  constexpr int kBits = 40;
-  const auto negative = [&](const Real& tau) { return Real(-g(tau)); };
-  const auto [at, value] = boost::math::tools::brent_find_minima(negative, Real(0), step, kBits);
-  return value < 0 ? at : Real(0);
+  // In double whatever Real is: Boost takes its accuracy from the number of digits of the type, which BigFloat has not.
+  constexpr int kBits = std::numeric_limits<double>::digits / 2;
+  const auto negative = [&](double tau) { return -static_cast<double>(g(Real(tau))); };
+  const auto [at, value] = boost::math::tools::brent_find_minima(negative, 0.0, static_cast<double>(step), kBits);
+  return value < 0 ? Real(at) : Real(0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "irk/multiprecision.h"
 #include "irk/problem.h"
 
 namespace irk {
@@ -50,6 +51,42 @@ TEST(PiecewiseLinearSolution, TakesTheEarliestSwitchAndJumps) {
   EXPECT_EQ(at.d[0], 2);
   EXPECT_NEAR(at.d[1], 1 + std::sqrt(0.9), 1e-12);
   EXPECT_NEAR(exact(1.5).u[0], 0.25, 1e-12);
+}
+
+/// An oscillation u = sin t, which passes a mark just below its peak; d = the time of passing.
+template <class Real>
+struct Peak {
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.u[0] - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.0) ? T(-1.0) : T(p.u[0] - 0.9999);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = p.t;
+  }
+  void start(State<Real>& s) const { s.v[0] = 1; }
+  Mat<Real> rates(const Vec<Real>&) const {
+    Mat<Real> rows(1, 3);  // v' of (u, v, 1)
+    rows << -1, 0, 0;
+    return rows;
+  }
+};
+
+template <class Real>
+double timeOfPassing() {
+  return static_cast<double>(exactBetweenSwitches<Real>(Peak<Real>(), Real(2)).d[0]);
+}
+
+// The steps of the search are 0.25 long: the mark is passed and left again between 1.5 and 1.75.
+TEST(PiecewiseLinearSolution, FindsASwitchThatIsDueInsideAStepOnly) {
+  const double right = std::asin(0.9999);
+  EXPECT_NEAR(timeOfPassing<double>(), right, 1e-11);
+  EXPECT_NEAR(timeOfPassing<BigFloat>(), right, 1e-11);
 }
 
 }  // namespace
