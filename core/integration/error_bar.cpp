@@ -195,7 +195,7 @@ ErrorBar unknownBar(const State<Real>& result, const Solution<Real>& second) {
   bar.v = unknown(result.v.size());
   bar.x = unknown(result.x.size());
   bar.z = unknown(result.z().size());
-  bar.problem = "the second integration ended as " + std::string(name(second.outcome));
+  bar.problem = "the integration that measures it ended as " + std::string(name(second.outcome));
   if (!second.detail.empty()) bar.problem += ": " + second.detail;
   return bar;
 }
@@ -288,6 +288,19 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   checked.tolerances = tolerances;
   validate(checked);
   return controlledBar<Real>(second, {result, start, tolerances, scale, monitor, t_end}, second_result);
+}
+
+bool asksForStricter(const ErrorBar& bar) { return bar.known() && bar.tolerances * kBarStricter > 1; }
+
+ErrorBar larger(const ErrorBar& a, const ErrorBar& b) {
+  ErrorBar result = a.tolerances < b.tolerances ? b : a;  // has `tolerances`, `worst` and `remark` of the larger one
+  result.u = a.u.cwiseMax(b.u);
+  result.v = a.v.cwiseMax(b.v);
+  result.x = a.x.cwiseMax(b.x);
+  result.z = a.z.cwiseMax(b.z);
+  result.t = std::fmax(a.t, b.t);
+  if (result.remark.empty()) result.remark = a.remark + b.remark;
+  return result;
 }
 
 double largestErrorBar(const Tolerances& tolerances) {

@@ -65,18 +65,26 @@ RunSpec strictRun(const RunSpec& question, IndependentFamily family, double tole
   return strict;
 }
 
+namespace {
+
 template <class Real>
-RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
-                             const MeasuringWatch& watch) {
-  if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
-  const auto setup = setUp<Real>(independentSpec(spec), scene);
+struct Measurement {
+  ErrorBar bar;        // with the scene's names in its texts
+  State<Real> better;  // the result of the integration that measures
+  double cpu_s = 0;    // of this integration
+};
+
+// Measures the error of a result of `spec` by the run `measuring`.
+template <class Real>
+Measurement<Real> measuredBy(const RunSpec& measuring, const RunSpec& spec, const Scene<Real>& scene,
+                             const State<Real>& result, const MeasuringWatch& watch) {
+  const auto setup = setUp<Real>(measuring, scene);
   auto integrator = setup.integrator();
   const double began = threadSeconds();
-  const State<Real>& result = solution.state;
   Monitor<Real> monitor;
   double t = static_cast<double>(scene.start.t);
   const double t0 = t, length = static_cast<double>(result.t) - t0;
-  // The second integration ends at its own time of the switch.
+  // The integration ends at its own time of the switch.
   const auto t_end = spec.options.stop_at.empty() ? std::nullopt : std::optional(decimalNumber<Real>(spec.t_end));
   monitor.interrupt = [&] {
     if (watch.progress) watch.progress(length > 0 ? (t - t0) / length : 1);
@@ -84,25 +92,56 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   };
   if (watch.progress) monitor.accepted = [&t](const StepRecord<Real>& step) { t = static_cast<double>(step.t); };
   Solution<Real> second;
-  const ErrorBar bar = measureErrorBar(result, integrator, scene.start, spec.options.tolerances,
-                                       toleranceScale(scene, spec, scene.sizes()), second, monitor, t_end);
-  RunErrorBar measured;
-  measured.u = bar.u, measured.v = bar.v, measured.x = bar.x, measured.z = bar.z;
-  measured.problem = withNames(bar.problem, scene.names, scene.sizes(), setup.system->sizes());
-  measured.remark = withNames(bar.remark, scene.names, scene.sizes(), setup.system->sizes());
-  measured.cpu_s = threadSeconds() - began;
-  if (!bar.known()) return measured;
-  measured.tolerances = bar.tolerances;
-  measured.t = bar.t;
+  ErrorBar bar = measureErrorBar(result, integrator, scene.start, spec.options.tolerances,
+                                 toleranceScale(scene, spec, scene.sizes()), second, monitor, t_end);
+  bar.problem = withNames(bar.problem, scene.names, scene.sizes(), setup.system->sizes());
+  bar.remark = withNames(bar.remark, scene.names, scene.sizes(), setup.system->sizes());
+  return {std::move(bar), std::move(second.state), threadSeconds() - began};
+}
+
+// The same by independentSpec, and once more by that of the second run if the bar asks for it.
+template <class Real>
+Measurement<Real> measured(const RunSpec& spec, const Scene<Real>& scene, const State<Real>& result,
+                           const MeasuringWatch& watch) {
+  const RunSpec second = independentSpec(spec);
+  Measurement<Real> of = measuredBy(second, spec, scene, result, watch);
+  if (hasFixedSteps(spec.options.step) || !asksForStricter(of.bar)) return of;
+  Measurement<Real> again = measuredBy(independentSpec(second), spec, scene, result, watch);
+  of.cpu_s += again.cpu_s;
+  if (again.bar.known()) {
+    of.bar = larger(of.bar, again.bar);
+    of.better = std::move(again.better);
+  } else if (of.bar.remark.empty()) {
+    of.bar.remark = "so large a bar may be too small: measured again, " + again.bar.problem;
+  }
+  return of;
+}
+
+}  // namespace
+
+template <class Real>
+RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
+                             const MeasuringWatch& watch) {
+  if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
+  const State<Real>& result = solution.state;
+  const auto [bar, better, cpu_s] = measured(spec, scene, result, watch);
+  RunErrorBar told;
+  told.u = bar.u, told.v = bar.v, told.x = bar.x, told.z = bar.z;
+  told.problem = bar.problem;
+  told.remark = bar.remark;
+  told.cpu_s = cpu_s;
+  if (!bar.known()) return told;
+  told.tolerances = bar.tolerances;
+  told.t = bar.t;
   const auto worst = static_cast<std::size_t>(std::max<Index>(bar.worst, 0));
-  if (worst < scene.names.size()) measured.component = scene.names[worst];
+  if (worst < scene.names.size()) told.component = scene.names[worst];
   const Index nu = result.u.size(), nx = result.x.size();
-  measured.error = relative(bar.u, second.state.u, scene.scale, 0, measured.error);
-  measured.error = relative(bar.v, second.state.v, scene.scale, nu, measured.error);
-  measured.error = relative(bar.x, second.state.x, scene.scale, 2 * nu, measured.error);
-  measured.error_z = relative(bar.z, second.state.z(), scene.scale, 2 * nu + nx, measured.error_z);
-  if (spec.error_bar == ErrorBarUse::kRefined) solution.state = second.state;
-  return measured;
+  told.error = relative(bar.u, better.u, scene.scale, 0, told.error);
+  told.error = relative(bar.v, better.v, scene.scale, nu, told.error);
+  told.error = relative(bar.x, better.x, scene.scale, 2 * nu, told.error);
+  told.error_z = relative(bar.z, better.z(), scene.scale, 2 * nu + nx, told.error_z);
+  if (spec.error_bar == ErrorBarUse::kRefined) solution.state = better;
+  return told;
 }
 
 std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec) {

@@ -58,6 +58,17 @@ template <class Real>
                                        Solution<Real>& second_result, const Monitor<Real>& monitor = {},
                                        const std::optional<Real>& t_end = {});
 
+/// Whether a bar is so large that it has to be measured again, more strictly. The second integration has a tenth of the
+/// tolerance, so if the motion amplifies errors the second result has about a tenth of the first one's error: more than
+/// a tolerance, and as much as the first one where the errors have grown to the size of the motion. A third
+/// integration, with independentOptions of the second one's options and the family of the result, then gives a second
+/// distance; the bar is the `larger` of both. Not for runs with fixed steps, which are measured with a tolerance of
+/// their own. False for an unknown bar.
+bool asksForStricter(const ErrorBar& bar);
+
+/// The larger one of two known bars of one result, component by component.
+ErrorBar larger(const ErrorBar& a, const ErrorBar& b);
+
 /// A success should be right to this many tolerances: 1000, and 1e-9 beside it, where round-off is.
 double largestErrorBar(const Tolerances& tolerances);
 

@@ -139,7 +139,7 @@ TEST(ErrorBar, IsUnknownIfTheSecondIntegrationFails) {
   EXPECT_TRUE(std::isnan(bar.tolerances));
   ASSERT_EQ(bar.x.size(), 1);
   EXPECT_TRUE(std::isnan(bar.x[0]));
-  EXPECT_NE(bar.problem.find("second integration"), std::string::npos) << bar.problem;
+  EXPECT_NE(bar.problem.find("the integration that measures it"), std::string::npos) << bar.problem;
 }
 
 // It is used as soon as a component of the result is not finite.
@@ -271,6 +271,37 @@ TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
 TEST(ErrorBar, LargestOfASuccess) {
   EXPECT_NEAR(largestErrorBar({1e-3, 1e-6}), 1000, 1e-5);
   EXPECT_NEAR(largestErrorBar({1e-13, 1e-12}), 2000, 1e-9);
+}
+
+// The second integration has a tenth of the tolerance: from 10 tolerances on it may be wrong by one itself.
+TEST(ErrorBar, AsksForAStricterIntegrationIfItIsLarge) {
+  ErrorBar bar;
+  EXPECT_FALSE(asksForStricter(bar)) << "nothing is measured";
+  bar.tolerances = 9.9;
+  EXPECT_FALSE(asksForStricter(bar));
+  bar.tolerances = 10.1;
+  EXPECT_TRUE(asksForStricter(bar));
+  bar.problem = "failed";
+  EXPECT_FALSE(asksForStricter(bar));
+}
+
+TEST(ErrorBar, TheLargerOneIsTakenComponentByComponent) {
+  ErrorBar a, b;
+  a.u = Vec<double>::Constant(1, 3), b.u = Vec<double>::Constant(1, 2);
+  a.v = Vec<double>::Constant(1, 0.25), b.v = Vec<double>::Constant(1, 0.5);
+  a.x = (Vec<double>(2) << 1, 0).finished(), b.x = (Vec<double>(2) << 0, 7).finished();
+  a.z = b.z = Vec<double>::Zero(0);
+  a.tolerances = 30, a.worst = 0, a.remark = "of a";
+  b.tolerances = 70, b.worst = 3;
+  for (const ErrorBar& bar : {larger(a, b), larger(b, a)}) {
+    EXPECT_EQ(bar.u[0], 3);
+    EXPECT_EQ(bar.v[0], 0.5);
+    EXPECT_EQ(bar.x[0], 1);
+    EXPECT_EQ(bar.x[1], 7);
+    EXPECT_EQ(bar.tolerances, 70);
+    EXPECT_EQ(bar.worst, 3);
+    EXPECT_EQ(bar.remark, "of a");
+  }
 }
 
 TEST(ErrorBar, TheSecondIntegrationIsStricterAndKeepsWhatDescribesTheProblem) {
