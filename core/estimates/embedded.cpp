@@ -82,6 +82,7 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       start_{atStart(scheme), Vec<Real>(scheme.s)},
       lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
       defect_(sizes_.n()),
+      predicted_(sizes_.n()),
       slip_(sizes_.nu),
       at_(sizes_),
       error_(sizes_),
@@ -194,6 +195,19 @@ auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolyno
 }
 
 template <class Real>
+void EmbeddedEstimate<Real>::residualBehind() {
+  const Linearization<Real>& at = stages_.shared().at().front();
+  predicted_.setZero();
+  for (Index j = 0; j < sizes_.n(); ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    for (int k = at.pattern->column_start[c]; k < at.pattern->column_start[c + 1]; ++k) {
+      predicted_[at.pattern->row[static_cast<std::size_t>(k)]] += at.d0[k] * e_(j, 0);
+    }
+  }
+  if (scaled_) predicted_.array() *= scales_.array();
+}
+
+template <class Real>
 bool EmbeddedEstimate<Real>::raises(Vec<Real>& most) const {
   using std::abs;
   bool raised = false;
@@ -227,8 +241,14 @@ auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<
   at_.v = at.v + error_.v;
   at_.x = at.x + error_.x;
   at_.d = at.d;
+  residualBehind();
   result.outcome = evaluateAt(pointAt(at.t, at_.u, at_), EquationsAt::kInside);
   if (result.outcome == Outcome::kSuccess) measure();
+  if (result.outcome != Outcome::kSuccess) return result;
+  const double evaluated = result.error;
+  e_.col(0) = predicted_;
+  measure();
+  result.error = std::max(result.error, evaluated);
   return result;
 }
 

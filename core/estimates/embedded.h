@@ -43,7 +43,9 @@ class EmbeddedEstimate {
 
   /// The error -h mu (D0 + h mu D1 + h^2 mu^2 D2)^-1 r(at) for a point inside a step of size h, whose (a, k, z) are
   /// those of the continuous solution: the defect there (core/estimates/defect.h). One above the tolerance is filtered
-  /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count. Counts u, v, x; rows of
+  /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count: by the residual behind
+  /// that error, and by the one that the linearization predicts there; the larger one counts. The residual alone would
+  /// be zero where the error leads out of a force that acts in a short range. Counts u, v, x; rows of
   /// constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at the points before it in this step; a
   /// point whose residual is larger in no row has the error 0 and is not filtered. That is exact where the filter
   /// couples no rows; in other systems the parts of an earlier residual may have cancelled in the filter.
@@ -78,6 +80,9 @@ class EmbeddedEstimate {
   bool raises(Vec<Real>& most) const;
   Outcome filter(const Real& h);
   Outcome solve(const Real& h);
+  // Sets `predicted_` to the residual that a linear system has at the point displaced by the error, which e_ gives:
+  // r - (h mu D1 + h^2 mu^2 D2) e = D0 e.
+  void residualBehind();
 
   const System<Real>& system_;
   const Scheme<Real>& scheme_;
@@ -94,6 +99,7 @@ class EmbeddedEstimate {
   Vec<Real> basis_;
   AtStart start_, lower_;  // with the full degree, and with a lower one
   Vec<Real> defect_;       // K(0), n
+  Vec<Real> predicted_;    // residualBehind, n
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
   State<Real> at_;         // the point where the residual is evaluated, unless that is the step's start
   State<Real> error_;

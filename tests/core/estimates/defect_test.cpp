@@ -259,6 +259,40 @@ TEST(Defect, FindsShorterPulsesWithMoreLooks) {
   EXPECT_GT(missed_with_few, 20);
 }
 
+/// u'' = force in |u - 1| < width, else 0: the energy gives the speed behind it, or the mass comes back.
+struct ShortForce {
+  double force, width;
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T d = p.u[0] - 1.0;
+    r.u[0] = (d > T(-width) && d < T(width) ? T(force) : T(0.0)) - p.a[0];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.v[0] = 1;
+    return s;
+  }
+  double finalSpeed() const {
+    const double squared = 1 + 4 * width * force;
+    return squared > 0 ? std::sqrt(squared) : -1;
+  }
+};
+
+// The error at such a point leads out of the range of the force, the farther the stronger the force is.
+TEST(Defect, FindsAForceOfShortRangeHoweverStrongItIs) {
+  for (const double force : {-0.5, -3.0, -12.0, -60.0, -600.0}) {
+    const ShortForce problem{force, 0.02};
+    for (const char* method : {"radau_iia_3", "radau_iia_5", "gauss_8"}) {
+      for (const IntegratorOptions& options : {embedded(1e-6), adaptive(1e-6)}) {
+        const auto s = integrate<double>(problem, problem.start(), 2, makeTableau<double>(method), options);
+        ASSERT_EQ(s.outcome, Outcome::kSuccess) << force << ' ' << method << ": " << s.detail;
+        EXPECT_NEAR(s.state.v[0], problem.finalSpeed(), 1e-3) << force << ' ' << method;
+      }
+    }
+  }
+}
+
 // Also across the end of a period.
 TEST(MovingPoints, LeaveNoGapAboveTwoPartsOfTheirNumber) {
   const Scheme<double> scheme(makeTableau<double>("radau_iia_3"));
