@@ -59,12 +59,14 @@ ConsistentStart<Real>::ConsistentStart(const System<Real>& system, DerivativeSou
       given_(system.sizes().n()),
       scale_(componentScale(system.sizes(), scale)) {}
 
-// Returns false if D0 is singular. For a dense D0 this is decided by full pivoting.
+// Returns false if D0 is singular. For a dense D0 this is decided by full pivoting of the scaled matrix.
 template <class Real>
 bool ConsistentStart<Real>::factorize() {
   ++factorizations_;
   if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
-  dense_lu_.compute(D_.dense0());
+  scaled_ = D_.dense0();
+  equilibration_.apply(*D_.pattern, scaled_.data());
+  dense_lu_.compute(scaled_);
   return dense_lu_.isInvertible();
 }
 
@@ -72,11 +74,13 @@ bool ConsistentStart<Real>::factorize() {
 template <class Real>
 void ConsistentStart<Real>::solve() {
   if (D_.pattern->full) {
-    // dense_lu_.solve(r_) without the memory that it takes: P D0 Q = L U.
+    // dense_lu_.solve(r_) without the memory that it takes: P (R D0 C) Q = L U.
+    equilibration_.scaleRight(r_);
     dw_.noalias() = dense_lu_.permutationP() * r_;
     dense_lu_.matrixLU().template triangularView<Eigen::UnitLower>().solveInPlace(dw_);
     dense_lu_.matrixLU().template triangularView<Eigen::Upper>().solveInPlace(dw_);
     r_.noalias() = dense_lu_.permutationQ() * dw_;
+    equilibration_.scaleBack(r_);
     dw_ = r_;
   } else {
     dw_ = r_;

@@ -69,7 +69,9 @@ class ConsistentStart {
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
   RateLu<Real> lu_;  // for a sparse pattern
-  Eigen::FullPivLU<Mat<Real>> dense_lu_;
+  Mat<Real> scaled_;
+  Equilibration<Real> equilibration_;
+  Eigen::FullPivLU<Mat<Real>> dense_lu_;  // of scaled_
   Vec<Real> r_, dw_, given_;
   std::int64_t factorizations_ = 0;
   Vec<double> scale_;  // of u, v, x, z

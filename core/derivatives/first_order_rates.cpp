@@ -68,8 +68,9 @@ void FirstOrderForm<Real>::takeMode(const char* function, const State<Real>& sce
 template <class Real>
 bool FirstOrderForm<Real>::isRegular() const {
   if (!D_.pattern->full) return lu_.factorize(D_) == Outcome::kSuccess;
-  return Eigen::FullPivLU<Mat<Real>>(Eigen::Map<const Mat<Real>>(D_.d0.data(), D_.pattern->n, D_.pattern->n))
-      .isInvertible();
+  Mat<Real> scaled = D_.dense0();
+  Equilibration<Real>().apply(*D_.pattern, scaled.data());
+  return Eigen::FullPivLU<Mat<Real>>(scaled).isInvertible();
 }
 
 // Sets diagonal_.
