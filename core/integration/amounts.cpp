@@ -7,7 +7,7 @@
 
 #include "core/base/constants.h"
 #include "core/derivatives/constraint_check.h"
-#include "core/integration/component_name.h"
+#include "core/system/component_name.h"
 #include "irk/multiprecision.h"
 
 namespace irk {

@@ -34,6 +34,8 @@ class Amounts {
   void look(const State<Real>& from, const State<Real>& to);
   /// One line; empty if there is nothing to say.
   std::string remark() const;
+  /// Its part on components below zero, which may be why an integration has failed.
+  std::string belowZero() const;
 
  private:
   struct Negative {
@@ -51,7 +53,6 @@ class Amounts {
   bool findRates(State<Real>& state);
   void between(double theta);
   std::string belowTolerance() const;
-  std::string belowZero() const;
 
   const System<Real>& system_;
   ConsistentStart<Real>& start_;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
+#include <sstream>
 
 #include "core/base/constants.h"
-#include "core/integration/component_name.h"
+#include "core/integration/small_motion.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/along_rates.h"
 #include "irk/multiprecision.h"
@@ -65,86 +66,6 @@ struct SwitchErrors {
     v += distances<Real>(earlier.v, at.behind.v);
     x += distances<Real>(earlier.x, at.behind.x);
   }
-};
-
-// Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
-// ends of it, and by their rate in between, so that a component that passes through zero is none of them.
-template <class Real>
-class SmallComponents {
- public:
-  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale) : scale_(scale) {
-    const bool ones = scale.size() == 0 || tolerances.norm == NormKind::kAbsolute;
-    if (ones) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
-    of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
-    forEach(start, [&](Component& c, Index i, double y, double) {
-      c.tolerance = tolerances.of(scale_[i], 0);
-      c.starts_at_zero = y == 0;
-      c.first = y;
-    });
-  }
-
-  // An integration begins at `start`. What was found small before stays so.
-  void begin(const State<Real>& start) {
-    found_ = false;
-    forEach(start, [](Component& c, Index, double y, double) { c.begins_below = y < c.tolerance; });
-  }
-  void look(const StepRecord<Real>& step) {
-    const double h = std::abs(step.h);
-    forEach(step.state, [&](Component& c, Index, double y, double rate) {
-      if (c.first == 0) c.first = y;
-      if (!c.small && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
-      c.begins_below = y < c.tolerance;
-    });
-  }
-  // Whether this integration has found a further one.
-  bool found() const { return found_; }
-
-  // The components that were found small, "x[2]" or "x[2] and 3 more": those that are at the last step, if any are.
-  std::string names(const Sizes& sizes) const {
-    const auto isNow = [](const Component& c) { return c.small && c.begins_below; };
-    const bool any_now = std::any_of(of_.begin(), of_.end(), isNow);
-    const auto isSmall = [&](const Component& c) { return any_now ? isNow(c) : c.small; };
-    const auto first = std::find_if(of_.begin(), of_.end(), isSmall);
-    const auto count = std::count_if(of_.begin(), of_.end(), isSmall);
-    return componentName(sizes, first - of_.begin()) + (count > 1 ? " and " + std::to_string(count - 1) + " more" : "");
-  }
-  // The scale of u, v and x that controls them relative to their size; empty if there are none. One that begins with
-  // zero has that of its first value. Without z, which the formulation of an integration may not have.
-  Vec<double> relativeScale() const {
-    constexpr double nothing = 1e-100;  // a decay is followed down to here
-    Vec<double> result;
-    for (std::size_t i = 0; i < of_.size(); ++i) {
-      if (!of_[i].small) continue;
-      if (result.size() == 0) result = scale_.head(static_cast<Index>(of_.size()));
-      result[static_cast<Index>(i)] = of_[i].starts_at_zero ? of_[i].first : nothing;
-    }
-    return result;
-  }
-
- private:
-  struct Component {
-    double tolerance = 0;
-    double first = 0;  // the first magnitude that is not zero
-    bool starts_at_zero = false, begins_below = false, small = false;
-  };
-  // Calls f(component, its index, its magnitude, that of its rate).
-  template <class F>
-  void forEach(const State<Real>& s, F&& f) {
-    const auto size = [](const Real& value) { return std::abs(static_cast<double>(value)); };
-    const auto add = [&](Index i, const Real& y, const Real& rate) {
-      f(of_[static_cast<std::size_t>(i)], i, size(y), size(rate));
-    };
-    const Index nu = s.u.size();
-    for (Index i = 0; i < nu; ++i) {
-      add(i, s.u[i], s.v[i]);
-      add(nu + i, s.v[i], s.w[i]);
-    }
-    for (Index i = 0; i < s.x.size(); ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
-  }
-
-  bool found_ = false;
-  Vec<double> scale_;
-  std::vector<Component> of_;
 };
 
 template <class Real>
@@ -226,51 +147,71 @@ Sizes sizesOf(const State<Real>& s) {
   return {.nu = nu, .nx = nx, .nz = s.w.size() - nu - nx, .discrete = s.d.size()};
 }
 
-// Weighs the errors of an integrator by another scale as long as it lives, also if the integration throws.
+// Weighs the errors of an integrator by another scale and limits its steps as long as it lives, also if the integration
+// throws.
 template <class Real>
-class OtherWeights {
+class Stricter {
  public:
-  OtherWeights(Integrator<Real>& integrator, const Vec<double>& scale) : integrator_(integrator) {
+  Stricter(Integrator<Real>& integrator, const Vec<double>& scale, double longest_step) : integrator_(integrator) {
     integrator_.weighErrorsBy(scale);
+    if (longest_step > 0) integrator_.limitSteps(longest_step);
   }
-  ~OtherWeights() { integrator_.weighErrorsBy({}); }
-  OtherWeights(const OtherWeights&) = delete;
-  OtherWeights& operator=(const OtherWeights&) = delete;
+  ~Stricter() {
+    integrator_.weighErrorsBy({});
+    integrator_.limitSteps(std::numeric_limits<double>::infinity());
+  }
+  Stricter(const Stricter&) = delete;
+  Stricter& operator=(const Stricter&) = delete;
 
  private:
   Integrator<Real>& integrator_;
 };
 
-// The same with all components under control that are found small on the way: the integration begins anew with each of
-// them. If that fails or takes too many steps, they are left as they are, and the bar's remark says so.
+template <class Real>
+std::string lacks(const SmallComponents<Real>& small, const UnstableRest<Real>& rest, const State<Real>& start) {
+  if (small.relativeScale().size() > 0) {
+    return "what comes of " + small.names(sizesOf(start)) +
+           ", below the absolute tolerance on the way: an integration that controls it there";
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << "how the motion leaves an unstable rest at t = " << rest.t() << ": an integration that follows it there";
+  return text.str();
+}
+
+// The same with what is below the tolerance on the way under control: the integration begins anew with each component
+// that is found small, and with shorter steps at each unstable rest. If that fails or takes too many steps, they are
+// left as they are, and the bar's remark says so.
 template <class Real>
 ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solution<Real>& other) {
   std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
   SmallComponents<Real> small(of.start, of.tolerances, of.scale);
+  UnstableRest<Real> rest(second.system(), of.tolerances, of.scale, of.t_end ? *of.t_end : of.result.t);
   Monitor<Real> watched = of.monitor;
   watched.accepted = [&](const StepRecord<Real>& step) {
     small.look(step);
+    rest.look(step);
     if (of.monitor.accepted) of.monitor.accepted(step);
   };
   for (;;) {
     const Vec<double> relative_scale = small.relativeScale();
+    const bool controls = relative_scale.size() > 0 || rest.limit() > 0;
     watched.interrupt = [&] {
-      const bool too_long = relative_scale.size() > 0 && left-- <= 0;
-      if (small.found() || too_long) return Outcome::kTimeout;
+      const bool too_long = controls && left-- <= 0;
+      if (small.found() || rest.found() || too_long) return Outcome::kTimeout;
       return of.monitor.interrupt ? of.monitor.interrupt() : Outcome::kSuccess;
     };
     small.begin(of.start);
+    rest.begin();
     const ErrorBar bar = [&] {
-      const OtherWeights<Real> weights(second, relative_scale);
+      const Stricter<Real> stricter(second, relative_scale, rest.limit());
       return barBy(second, of, watched, other);
     }();
-    if (small.found()) continue;
-    if (bar.known() || relative_scale.size() == 0) return bar;
-    const std::string ended = left < 0 ? "takes too many steps" : "ends as " + std::string(name(other.outcome));
+    if (small.found() || rest.found()) continue;
+    if (bar.known() || !controls) return bar;
+    const std::string ended = left < 0 ? " takes too many steps" : " ends as " + std::string(name(other.outcome));
     ErrorBar plain = barBy(second, of, of.monitor, other);
-    if (!plain.known()) return plain;
-    plain.remark = "the bar may lack what comes of " + small.names(sizesOf(of.start)) +
-                   ", below the absolute tolerance on the way: an integration that controls it there " + ended;
+    if (plain.known()) plain.remark = "the bar may lack " + lacks(small, rest, of.start) + ended;
     return plain;
   }
 }

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/constants.h"
 #include "core/base/in_use.h"
-#include "core/base/threads.h"
 #include "core/control/stall_detector.h"
 #include "core/integration/backward.h"
 #include "core/integration/grid.h"
@@ -30,22 +28,6 @@ std::shared_ptr<const System<Real>> checked(std::shared_ptr<const System<Real>> 
   return system;
 }
 
-// Without a tolerance Newton's method iterates to round-off of the solution's magnitude.
-template <class Real>
-IntegratorOptions legal(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
-                        std::size_t start) {
-  validate(options);
-  requireLegal(options);
-  if (hasFixedSteps(options.step)) {
-    options.step.estimate = ErrorEstimate::kNone;
-    options.tolerances = {1, 1, NormKind::kMixed};
-    options.newton.kappa = std::numeric_limits<double>::min();
-  }
-  requireLegal(options, system, schemes, start);
-  if (system.sizes().n() < kThreadsFrom) options.threads = 1;
-  return options;
-}
-
 /// Why a run ends before t_end; kSuccess: it goes on.
 struct Stop {
   Outcome outcome = Outcome::kSuccess;
@@ -65,7 +47,8 @@ class Integrator<Real>::Run {
       : system_(checked(std::move(system), scale)),
         schemes_(std::move(schemes)),
         start_(start),
-        options_(legal(options, *system_, schemes_, start)),
+        options_(legalOptions(options, *system_, schemes_, start)),
+        h_max_(options_.step.h_max),
         scale_(scale),
         stop_rule_(*system_, options_, scale),
         counted_(*system_, counters_, options_.threads),
@@ -106,6 +89,15 @@ class Integrator<Real>::Run {
     error_scale_ = scale;
   }
 
+  void limitSteps(double h_max) {
+    const InUse use(in_use_, "Integrator::limitSteps");
+    if (!(h_max > 0)) throw Misuse("Integrator::limitSteps: h_max needs a number > 0");
+    h_max_ = std::min(h_max, options_.step.h_max);
+    if (backward_) backward_->limitSteps(h_max);
+  }
+
+  const System<Real>& system() const { return *system_; }
+
  private:
   const State<Real>& state() const { return trajectory_.state(); }
 
@@ -115,6 +107,7 @@ class Integrator<Real>::Run {
     if (!backward_) {
       backward_ = std::make_unique<Run>(reversedSystem(system_), schemes_, start_, options_, scale_);
       backward_->weighErrorsBy(error_scale_);
+      backward_->limitSteps(h_max_);
     }
     requireNoJumps(*backward_->system_, start, t_end);
     Solution<Real> solution = backward_->integrate(reversed(start), opposite(t_end), reversed(monitor));
@@ -172,7 +165,7 @@ class Integrator<Real>::Run {
 
   Stop adaptiveSteps(const Real& t_end) {
     if (length_ == 0) return {};
-    double h = std::min(firstStep(), options_.step.h_max);
+    double h = std::min(firstStep(), h_max_);
     stall_.begin(static_cast<double>(state().t));
     last_steps_.begin();
     too_small_ = Outcome::kStepTooSmall;
@@ -220,7 +213,7 @@ class Integrator<Real>::Run {
     }
     const StepDecision decision = trajectory_.decide(result, size);
     // A step that was cut short does not reduce the size of the next one.
-    h = std::min(last_steps_.cut() && decision.accept ? std::max(h, decision.h) : decision.h, options_.step.h_max);
+    h = std::min(last_steps_.cut() && decision.accept ? std::max(h, decision.h) : decision.h, h_max_);
     if (!decision.accept) {
       ++counters_.steps_rejected_error;
       too_small_ = Outcome::kStepTooSmall;
@@ -235,7 +228,7 @@ class Integrator<Real>::Run {
     }
     if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
     stop_rule_.stepped(state());
-    h = std::min(trajectory_.nextSize(result, size, h), options_.step.h_max);
+    h = std::min(trajectory_.nextSize(result, size, h), h_max_);
     reach(t_end);
     return {};
   }
@@ -250,7 +243,9 @@ class Integrator<Real>::Run {
     const std::int64_t left = options_.step.max_steps - attempts;
     if (left == 0) return {Outcome::kMaxSteps, h, "too many steps"};
     if (!(h > 0)) return {too_small_, h, "the step control chose no size > 0 " + trajectory_.rejections()};
-    if (h < smallestSize()) return {too_small_, h, "step too small " + trajectory_.rejections()};
+    const bool undefined = too_small_ == Outcome::kNotFinite;
+    const char* const what = undefined ? "not finite in the smallest step as well " : "step too small ";
+    if (h < smallestSize()) return {too_small_, h, what + trajectory_.rejections()};
     const bool stalls =
         attempts > 0 && stall_.attempted(static_cast<double>(state().t), static_cast<double>(t_end), left);
     if (stalls) return {Outcome::kStalled, h, "steps do not grow " + trajectory_.rejections()};
@@ -297,6 +292,7 @@ class Integrator<Real>::Run {
   SchemeList<Real> schemes_;
   std::size_t start_;
   IntegratorOptions options_;
+  double h_max_;
   Vec<double> scale_, error_scale_;
   StopRule<Real> stop_rule_;
   Counters counters_;
@@ -333,6 +329,18 @@ template <class Real>
 void Integrator<Real>::weighErrorsBy(const Vec<double>& scale) {
   if (!run_) throw Misuse("Integrator::weighErrorsBy: the object has been moved from");
   run_->weighErrorsBy(scale);
+}
+
+template <class Real>
+void Integrator<Real>::limitSteps(double h_max) {
+  if (!run_) throw Misuse("Integrator::limitSteps: the object has been moved from");
+  run_->limitSteps(h_max);
+}
+
+template <class Real>
+const System<Real>& Integrator<Real>::system() const {
+  if (!run_) throw Misuse("Integrator::system: the object has been moved from");
+  return run_->system();
 }
 
 IRK_INSTANTIATE_CLASS(Integrator)

@@ -1,17 +1,20 @@
 #include "core/integration/rules.h"
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#include "core/base/threads.h"
 #include "core/control/controller.h"
 #include "core/control/order_controller.h"
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/first_order.h"
 #include "core/estimates/step_attempt.h"
 #include "core/newton/newton.h"
+#include "core/options/fixed_steps.h"
 #include "core/steps/modes.h"
 
 namespace irk {
@@ -225,7 +228,26 @@ void requireLegal(const IntegratorOptions& options, const System<Real>& system, 
   }
 }
 
+template <class Real>
+IntegratorOptions legalOptions(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
+                               std::size_t start) {
+  validate(options);
+  requireLegal(options);
+  if (hasFixedSteps(options.step)) {
+    options.step.estimate = ErrorEstimate::kNone;
+    options.tolerances = {1, 1, NormKind::kMixed};
+    options.newton.kappa = std::numeric_limits<double>::min();
+  }
+  requireLegal(options, system, schemes, start);
+  if (system.sizes().n() < kThreadsFrom) options.threads = 1;
+  return options;
+}
+
 template void requireLegal(const IntegratorOptions&, const System<double>&, const SchemeList<double>&, std::size_t);
 template void requireLegal(const IntegratorOptions&, const System<BigFloat>&, const SchemeList<BigFloat>&, std::size_t);
+template IntegratorOptions legalOptions(IntegratorOptions, const System<double>&, const SchemeList<double>&,
+                                        std::size_t);
+template IntegratorOptions legalOptions(IntegratorOptions, const System<BigFloat>&, const SchemeList<BigFloat>&,
+                                        std::size_t);
 
 }  // namespace irk

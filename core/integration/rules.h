@@ -21,4 +21,11 @@ template <class Real>
 void requireLegal(const IntegratorOptions& options, const System<Real>& system, const SchemeList<Real>& schemes,
                   std::size_t start);
 
+/// The options that an integration with these options has, after all of these checks: with fixed steps there is no
+/// estimate and no tolerance, and Newton's method iterates to round-off of the solution's magnitude; small systems have
+/// one thread.
+template <class Real>
+IntegratorOptions legalOptions(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
+                               std::size_t start);
+
 }  // namespace irk

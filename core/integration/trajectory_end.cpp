@@ -5,9 +5,9 @@
 
 #include "core/derivatives/constraint_check.h"
 #include "core/derivatives/first_order.h"
-#include "core/integration/component_name.h"
 #include "core/integration/end_check.h"
 #include "core/integration/trajectory.h"
+#include "core/system/component_name.h"
 #include "core/system/counting.h"
 #include "irk/multiprecision.h"
 
@@ -41,6 +41,8 @@ Solution<Real> Trajectory<Real>::failed(Outcome outcome, double h, const std::st
   text.precision(6);
   text << what << " at t = " << sceneTime(system_, state_.t) << ", h = " << h;
   if (blamed_ >= 0) text << ", " << switches_.describe(blamed_);
+  const std::string below = controller_ ? amounts_.belowZero() : "";
+  if (!below.empty()) text << "; " << below;
   return solution(outcome, text.str());
 }
 

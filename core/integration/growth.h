@@ -1,0 +1,28 @@
+// How fast errors grow at a point of a motion.
+#pragma once
+
+#include "core/derivatives/differentiator.h"
+#include "core/derivatives/rate_lu.h"
+
+namespace irk {
+
+/// The linearized motion (u, v, x)' = J (u, v, x) at a point, with (a, k, z) = -D0^-1 (D1 (v, x) + D2 u) of
+/// Level::kAcceleration.
+template <class Real>
+class Growth {
+ public:
+  /// Keeps a reference to the system.
+  Growth(const System<Real>& system, DerivativeSource source);
+
+  /// The largest |lambda| among the eigenvalues of J at `state` that grow by more than a factor e within `time`,
+  /// Re lambda time > 1. 0 if there are none, if (u, v, x) do not determine (a, k, z), and if there are more than
+  /// 50 components: eigenvalues of N components cost about 25 N^3 operations. Allocates.
+  double rate(const State<Real>& state, double time);
+
+ private:
+  const System<Real>& system_;
+  Differentiator<Real> differentiator_;
+  Linearization<Real> D_;
+};
+
+}  // namespace irk

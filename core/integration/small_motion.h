@@ -1,0 +1,160 @@
+// Watches an integration for what its error control cannot see: components, and motions, below the tolerance.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/integration/growth.h"
+#include "core/system/component_name.h"
+#include "irk/monitor.h"
+#include "irk/options.h"
+
+namespace irk {
+
+// Watches an integration for rests, steps in which nothing moves by more than its tolerance, at which errors grow. A
+// deviation from such a rest that is smaller than the tolerance grows in truth, but a step longer than its time
+// constant damps it: stiffly accurate methods damp all fast motions, growing ones as well.
+template <class Real>
+class UnstableRest {
+ public:
+  UnstableRest(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale, const Real& t_end)
+      : growth_(system, DerivativeSource::kAutomatic),
+        same_unknowns_(system.sizes() == system.sceneSizes()),
+        tolerances_(tolerances),
+        scale_(scale),
+        t_end_(t_end) {}
+
+  // An integration begins. The limit of its steps stays.
+  void begin() {
+    found_ = false;
+    last_.resize(0);
+  }
+  void look(const StepRecord<Real>& step) {
+    if (!same_unknowns_) return;
+    const double h = std::abs(step.h);
+    const Vec<double> rates = ratesIn(step.state);
+    const bool rests = last_.size() > 0 && h * std::max(rates.maxCoeff(), last_.maxCoeff()) < 1;
+    last_ = rates;
+    if (!rests) return;
+    const double growth = growth_.rate(step.state, std::abs(static_cast<double>(Real(t_end_ - step.t))));
+    if (!(growth * h > 1)) return;
+    found_ = true;
+    t_ = static_cast<double>(step.t);
+    limit_ = 1 / (2 * growth);
+  }
+  // Whether this integration has found one, or one that grows faster than those before.
+  bool found() const { return found_; }
+  // The length of steps with which a deviation from it can be followed; 0: there is none.
+  double limit() const { return limit_; }
+  double t() const { return t_; }
+
+ private:
+  // The magnitudes of (u, v, x)' in tolerances.
+  Vec<double> ratesIn(const State<Real>& s) const {
+    const Index nu = s.u.size(), nx = s.x.size();
+    Vec<double> rates(2 * nu + nx);
+    const auto add = [&](Index i, const Real& y, const Real& rate) {
+      const double scale = i < scale_.size() ? scale_[i] : 1;
+      rates[i] = std::abs(static_cast<double>(rate)) / tolerances_.of(scale, static_cast<double>(y));
+    };
+    for (Index i = 0; i < nu; ++i) {
+      add(i, s.u[i], s.v[i]);
+      add(nu + i, s.v[i], s.w[i]);
+    }
+    for (Index i = 0; i < nx; ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
+    return rates;
+  }
+
+  Growth<Real> growth_;
+  bool same_unknowns_;
+  Tolerances tolerances_;
+  Vec<double> scale_;
+  Real t_end_;
+  bool found_ = false;
+  double limit_ = 0, t_ = 0;
+  Vec<double> last_;  // ratesIn at the end of the step before
+};
+
+// Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
+// ends of it, and by their rate in between, so that a component that passes through zero is none of them.
+template <class Real>
+class SmallComponents {
+ public:
+  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale) : scale_(scale) {
+    const bool ones = scale.size() == 0 || tolerances.norm == NormKind::kAbsolute;
+    if (ones) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
+    of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
+    forEach(start, [&](Component& c, Index i, double y, double) {
+      c.tolerance = tolerances.of(scale_[i], 0);
+      c.starts_at_zero = y == 0;
+      c.first = y;
+    });
+  }
+
+  // An integration begins at `start`. What was found small before stays so.
+  void begin(const State<Real>& start) {
+    found_ = false;
+    forEach(start, [](Component& c, Index, double y, double) { c.begins_below = y < c.tolerance; });
+  }
+  void look(const StepRecord<Real>& step) {
+    const double h = std::abs(step.h);
+    forEach(step.state, [&](Component& c, Index, double y, double rate) {
+      if (c.first == 0) c.first = y;
+      if (!c.small && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
+      c.begins_below = y < c.tolerance;
+    });
+  }
+  // Whether this integration has found a further one.
+  bool found() const { return found_; }
+
+  // The components that were found small, "x[2]" or "x[2] and 3 more": those that are at the last step, if any are.
+  std::string names(const Sizes& sizes) const {
+    const auto isNow = [](const Component& c) { return c.small && c.begins_below; };
+    const bool any_now = std::any_of(of_.begin(), of_.end(), isNow);
+    const auto isSmall = [&](const Component& c) { return any_now ? isNow(c) : c.small; };
+    const auto first = std::find_if(of_.begin(), of_.end(), isSmall);
+    const auto count = std::count_if(of_.begin(), of_.end(), isSmall);
+    return componentName(sizes, first - of_.begin()) + (count > 1 ? " and " + std::to_string(count - 1) + " more" : "");
+  }
+  // The scale of u, v and x that controls them relative to their size; empty if there are none. One that begins with
+  // zero has that of its first value. Without z, which the formulation of an integration may not have.
+  Vec<double> relativeScale() const {
+    constexpr double nothing = 1e-100;  // a decay is followed down to here
+    Vec<double> result;
+    for (std::size_t i = 0; i < of_.size(); ++i) {
+      if (!of_[i].small) continue;
+      if (result.size() == 0) result = scale_.head(static_cast<Index>(of_.size()));
+      result[static_cast<Index>(i)] = of_[i].starts_at_zero ? of_[i].first : nothing;
+    }
+    return result;
+  }
+
+ private:
+  struct Component {
+    double tolerance = 0;
+    double first = 0;  // the first magnitude that is not zero
+    bool starts_at_zero = false, begins_below = false, small = false;
+  };
+  // Calls f(component, its index, its magnitude, that of its rate).
+  template <class F>
+  void forEach(const State<Real>& s, F&& f) {
+    const auto size = [](const Real& value) { return std::abs(static_cast<double>(value)); };
+    const auto add = [&](Index i, const Real& y, const Real& rate) {
+      f(of_[static_cast<std::size_t>(i)], i, size(y), size(rate));
+    };
+    const Index nu = s.u.size();
+    for (Index i = 0; i < nu; ++i) {
+      add(i, s.u[i], s.v[i]);
+      add(nu + i, s.v[i], s.w[i]);
+    }
+    for (Index i = 0; i < s.x.size(); ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
+  }
+
+  bool found_ = false;
+  Vec<double> scale_;
+  std::vector<Component> of_;
+};
+
+}  // namespace irk
