@@ -230,5 +230,42 @@ TEST(ConsistentStart, AScaleOfAnotherLengthIsRefused) {
   EXPECT_THROW(ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false, nullptr, scale), Misuse);
 }
 
+/// x_i' = gain z_i - x_i and 0 = weight (z_i - i / gain): as with kilovolts and picofarads.
+struct Gains {
+  Index m;
+  double gain, weight;
+  Sizes sizes() const { return {.nx = m, .nz = m}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    for (Index i = 0; i < m; ++i) {
+      r.x[i] = gain * p.z[i] - p.x[i] - p.k[i];
+      r.z[i] = weight * (p.z[i] - static_cast<double>(i) / gain);
+    }
+  }
+};
+
+// Both for a dense and for a sparse matrix.
+TEST(ConsistentStart, UnitsDoNotMakeAMatrixSingular) {
+  for (const Index m : {2, 40}) {
+    for (const double gain : {1e-9, 1.0, 1e9}) {
+      const auto system = makeSystem<double>(Gains{m, gain, 1});
+      State<double> state(system->sizes());
+      const auto report = ConsistentStart<double>(*system, DerivativeSource::kAutomatic, true).apply(state);
+      EXPECT_EQ(report.outcome, Outcome::kSuccess) << m << ' ' << gain << ": " << report.detail;
+      for (Index i = 0; i < m; ++i) EXPECT_NEAR(state.k()[i], static_cast<double>(i), 1e-12 * static_cast<double>(m));
+    }
+  }
+}
+
+TEST(ConsistentStart, ARowOfRoundOffDeterminesNothing) {
+  for (const Index m : {2, 40}) {
+    const auto system = makeSystem<double>(Gains{m, 1, 1e-17});
+    State<double> state(system->sizes());
+    ConsistentStart<double> start(*system, DerivativeSource::kAutomatic, false);
+    EXPECT_EQ(start.apply(state).outcome, Outcome::kSuccess);
+    EXPECT_EQ(state.z().norm(), 0) << "nothing is solved for";
+  }
+}
+
 }  // namespace
 }  // namespace irk::test

@@ -1,0 +1,114 @@
+// Motions that leave an unstable rest: the growth of their errors, and error bars that follow them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/integration/growth.h"
+#include "tests/core/error_bar_run.h"
+
+namespace irk::test {
+namespace {
+
+/// A population near its capacity 1, x' = -x (1 - x): x = 1 / (1 + d e^t) with x(0) = 1 / (1 + d).
+struct AtCapacity {
+  double d = 1e-9;
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = -p.x[0] * (1.0 - p.x[0]) - p.k[0];
+  }
+  double exact(double t) const { return 1 / (1 + d * std::exp(t)); }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.x[0] = exact(0);
+    return s;
+  }
+};
+
+/// A spiral around (1, 1) from (1 + 1e-6, 1): its radius is 1e-6 e^(growth t).
+struct Spiral {
+  double growth, frequency;
+  Sizes sizes() const { return {.nx = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0;
+    r.x[0] = growth * x - frequency * y - p.k[0];
+    r.x[1] = frequency * x + growth * y - p.k[1];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.x << 1 + 1e-6, 1;
+    return s;
+  }
+};
+
+void expectCovered(const ErrorBar& bar, Index i, double error) {
+  EXPECT_LT(error, 1.1 * bar.x[i]) << "component " << i;
+  EXPECT_GT(error, 0.9 * bar.x[i]) << "component " << i;
+}
+
+TEST(UnstableRest, ADeviationBelowTheToleranceIsFollowed) {
+  const AtCapacity problem;
+  const double t_end = 40;
+  for (const double tol : {1e-3, 1e-4}) {
+    const auto run = measuredRun(problem, problem.start(), t_end, embedded(tol));
+    EXPECT_NEAR(run.first.state.x[0], 1, 1e-3) << "the run itself stays at rest";
+    expectCovered(run.bar, 0, std::abs(run.first.state.x[0] - problem.exact(t_end)));
+  }
+}
+
+TEST(UnstableRest, AnOscillationThatGrowsIsFollowed) {
+  const Spiral problem{1, 100};
+  const double t_end = 15, radius = 1e-6 * std::exp(t_end);
+  const auto run = measuredRun(problem, problem.start(), t_end, embedded(1e-4));
+  expectCovered(run.bar, 0, std::abs(run.first.state.x[0] - 1 - radius * std::cos(100 * t_end)));
+  expectCovered(run.bar, 1, std::abs(run.first.state.x[1] - 1 - radius * std::sin(100 * t_end)));
+  EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
+}
+
+TEST(UnstableRest, ARemarkTellsOfOneThatIsTooFast) {
+  const Spiral problem{1, 1e6};
+  const auto run = measuredRun(problem, problem.start(), 15, embedded(1e-4));
+  EXPECT_NE(run.bar.remark.find("unstable rest at t = "), std::string::npos) << run.bar.remark;
+  EXPECT_NE(run.bar.remark.find("too many steps"), std::string::npos) << run.bar.remark;
+}
+
+// The same equations backward in growth: long steps, once.
+TEST(UnstableRest, AStableOneCostsNothing) {
+  const Spiral problem{-1, 100};
+  const auto run = measuredRun(problem, problem.start(), 15, embedded(1e-4));
+  EXPECT_LT(run.steps, 100);
+  EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
+  EXPECT_LT(run.bar.tolerances, 1);
+}
+
+double growth(const std::shared_ptr<const System<double>>& system, const State<double>& state, double time) {
+  return Growth<double>(*system, DerivativeSource::kAutomatic).rate(state, time);
+}
+
+TEST(Growth, IsTheLargestEigenvalueThatGrowsInTime) {
+  const auto spiral = [](double rate) { return makeSystem<double>(Spiral{rate, 100}); };
+  State<double> rest(Spiral{}.sizes());
+  rest.x.setOnes();
+  const double size = std::hypot(2, 100);
+  EXPECT_NEAR(growth(spiral(2), rest, 1), size, 1e-10 * size);
+  EXPECT_EQ(growth(spiral(2), rest, 0.49), 0) << "less than a factor e";
+  EXPECT_EQ(growth(spiral(0), rest, 1e6), 0) << "an oscillation";
+  EXPECT_EQ(growth(spiral(-2), rest, 1e6), 0);
+}
+
+// With its multiplier a pendulum in Cartesian coordinates has the growth of one in the angle: sqrt(g / l).
+TEST(Growth, OfAConstrainedMotionIsThatAlongTheConstraint) {
+  const LongPendulum<double> problem{2};
+  State<double> upright(problem.sizes()), hanging(problem.sizes());
+  upright.u << 0, 2;
+  upright.w[2] = -9.81 / 2;
+  hanging.u << 0, -2;
+  hanging.w[2] = 9.81 / 2;
+  const auto system = makeSystem<double>(problem);
+  EXPECT_NEAR(growth(system, upright, 10), std::sqrt(9.81 / 2), 1e-8);
+  EXPECT_EQ(growth(system, hanging, 10), 0);
+}
+
+}  // namespace
+}  // namespace irk::test
