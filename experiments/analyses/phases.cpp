@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -41,6 +42,16 @@ constexpr std::array<std::string_view, 7> kParts = {"residual", "jacobian", "fac
 using Parts = std::array<double, kParts.size()>;
 
 bool covers(double covered) { return covered >= kMinCovered && covered <= kMaxCovered; }
+
+// Seconds per call: the mean over a batch so long that reading the clock takes less than 1 % of it.
+double batchSeconds(const std::function<void()>& call) {
+  for (std::int64_t calls = 1;; calls *= 2) {
+    const double start = threadSeconds();
+    for (std::int64_t i = 0; i < calls; ++i) call();
+    const double elapsed = threadSeconds() - start;
+    if (elapsed >= kMinBatch) return elapsed / static_cast<double>(calls);
+  }
+}
 
 /// Measures one run and its parts.
 class PhaseMeasurement {
@@ -203,15 +214,6 @@ std::vector<std::string> phaseColumns(const Table& runs) {
 }
 
 }  // namespace
-
-double batchSeconds(const std::function<void()>& call) {
-  for (std::int64_t calls = 1;; calls *= 2) {
-    const double start = threadSeconds();
-    for (std::int64_t i = 0; i < calls; ++i) call();
-    const double elapsed = threadSeconds() - start;
-    if (elapsed >= kMinBatch) return elapsed / static_cast<double>(calls);
-  }
-}
 
 std::string doubtfulShares(const Table& phases) {
   std::size_t doubtful = 0;

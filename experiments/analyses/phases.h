@@ -1,7 +1,6 @@
 // phases.csv: the share of each part of an integration in its time.
 #pragma once
 
-#include <functional>
 #include <iosfwd>
 #include <string>
 
@@ -21,8 +20,5 @@ Table phaseTable(const Study& study, const RunFile& runs, std::ostream& progress
 /// How many rows have parts that cover less than 0.9 or more than 1.1 of the whole run, as on a busy machine: their
 /// shares are unreliable. Empty if none has.
 std::string doubtfulShares(const Table& phases);
-
-/// Seconds per call: the mean over a batch so long that reading the clock takes less than 1 % of it.
-double batchSeconds(const std::function<void()>& call);
 
 }  // namespace irk

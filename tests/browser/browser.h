@@ -46,16 +46,15 @@ struct OpenedPage {
 
 /// Opens file://`page`#`hash` and waits until its scripts have nothing left to do. Its profile lives in a folder of its
 /// own and goes with it.
-inline OpenedPage openPage(const std::filesystem::path& page, const std::string& hash = "",
-                           const std::string& options = "--dump-dom") {
+inline OpenedPage openPage(const std::filesystem::path& page, const std::string& hash = "") {
   const TemporaryFolder folder;
   const auto out = folder.path() / "dom.html", err = folder.path() / "messages";
   const std::string url = "file://" + page.string() + (hash.empty() ? "" : "#" + hash);
   const std::string command =
       "timeout 100 '" + chromium() +
       "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars --no-first-run "
-      "--allow-file-access-from-files --enable-logging=stderr --virtual-time-budget=10000 --user-data-dir='" +
-      (folder.path() / "profile").string() + "' " + options + " '" + url + "' >'" + out.string() + "' 2>'" +
+      "--allow-file-access-from-files --enable-logging=stderr --virtual-time-budget=10000 --dump-dom --user-data-dir='" +
+      (folder.path() / "profile").string() + "' '" + url + "' >'" + out.string() + "' 2>'" +
       err.string() + "'";
   OpenedPage opened;
   opened.status = std::system(command.c_str());

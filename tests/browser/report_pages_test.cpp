@@ -169,22 +169,5 @@ TEST_F(ReportInBrowser, LeavesOutMissingValuesOnAPhone) {
   EXPECT_EQ(seen["seen"], 0);
 }
 
-// For the eye: in the build's folder, with the run's name.
-TEST_F(ReportInBrowser, IsPhotographed) {
-  const std::filesystem::path shots = IRK_SCREENSHOTS;
-  std::filesystem::create_directories(shots);
-  for (const auto& page : pages()) {
-    for (const auto& [name, options] : {std::pair{"1400", "--window-size=1400,3000"},
-                                        {"400", "--window-size=400,3000"},
-                                        {"dark", "--window-size=1400,3000 --blink-settings=preferredColorScheme=0"}}) {
-      const auto shot = shots / (page.stem().string() + "_" + name + ".png");
-      std::filesystem::remove(shot);
-      (void)openPage(page, "", std::string(options) + " --screenshot='" + shot.string() + "'");
-      ASSERT_TRUE(std::filesystem::exists(shot)) << shot;
-      EXPECT_GT(std::filesystem::file_size(shot), 20'000u) << shot << " is empty";
-    }
-  }
-}
-
 }  // namespace
 }  // namespace irk

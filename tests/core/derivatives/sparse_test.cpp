@@ -268,11 +268,14 @@ TEST(Sparse, ThreadsChangeNoBit) {
         o.storage = storage;
         o.solver = solver;
         o.step.estimate = estimate;
-        const auto one = solve(system, ancf.start, 0.01, o);
-        for (const int threads : {2, 3, 8}) {
-          SCOPED_TRACE(threads);
-          o.threads = threads;
-          expectSameBits(*system, one, solve(system, ancf.start, 0.01, o));
+        for (const double end : {0.01, -0.01}) {  // backward in time, too
+          o.threads = 1;
+          const auto one = solve(system, ancf.start, end, o);
+          for (const int threads : {2, 3, 8}) {
+            SCOPED_TRACE(threads);
+            o.threads = threads;
+            expectSameBits(*system, one, solve(system, ancf.start, end, o));
+          }
         }
       }
     }

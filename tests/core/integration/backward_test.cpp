@@ -158,19 +158,6 @@ TEST(Backward, FailuresNameTheCallersTime) {
   }
 }
 
-TEST(Backward, ThreadsChangeNothing) {
-  const auto run = [](int threads) {
-    IntegratorOptions options = adaptive(1e-9);
-    options.threads = threads;
-    return integrate<double>(DrivenPendulum{}, DrivenPendulum{}.start(), -1, makeTableau<double>("radau_iia_9"),
-                             options);
-  };
-  const auto one = run(1), two = run(2);
-  ASSERT_EQ(one.outcome, Outcome::kSuccess) << one.detail;
-  EXPECT_EQ(one.state.u, two.state.u);
-  EXPECT_EQ(one.counters.residuals, two.counters.residuals);
-}
-
 TEST(Backward, TheErrorBarIsTheError) {
   State<double> start(Riccati{}.sizes());
   start.t = 2;

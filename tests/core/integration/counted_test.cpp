@@ -233,25 +233,5 @@ TEST(Counted, DoublingSolvesThreeTimes) {
   }
 }
 
-// Stages on several threads give the same bits and the same counts.
-TEST(Threads, OfOneIntegrationChangeNothing) {
-  for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
-    IntegratorOptions o = adaptive(1e-8);
-    o.step.control = StepControl::kPredictive;
-    o.step.estimate = ErrorEstimate::kRichardson;
-    o.solver = solver;
-    const auto one = taken(CartesianPendulum{}, pendulumStart<double>(), 2, o, "radau_iia_5");
-    o.threads = 3;
-    const auto three = taken(CartesianPendulum{}, pendulumStart<double>(), 2, o, "radau_iia_5");
-    EXPECT_EQ(one.solution.state.u, three.solution.state.u);
-    EXPECT_EQ(one.solution.state.w, three.solution.state.w);
-    EXPECT_EQ(one.h, three.h);
-    std::vector<std::int64_t> a, b;
-    one.solution.counters.forEach([&](const char*, std::int64_t n) { a.push_back(n); });
-    three.solution.counters.forEach([&](const char*, std::int64_t n) { b.push_back(n); });
-    EXPECT_EQ(a, b);
-  }
-}
-
 }  // namespace
 }  // namespace irk::test

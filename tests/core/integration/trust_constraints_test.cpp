@@ -50,23 +50,23 @@ TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
 }
 
 // In index 3, Gauss methods with an even number of stages have order s - 2 for velocities and do not determine
-// multipliers.
+// multipliers, so that they may fail. Methods with a stage at the end of the step may not.
 TEST(Success, VelocitiesOfIndex3AreRightOrTheRunFails) {
   for (const char* method :
        {"gauss_2", "gauss_3", "gauss_4", "gauss_5", "radau_iia_3", "radau_iia_5", "lobatto_iiic_4", "radau_ia_4"}) {
     for (const double tol : {1e-4, 1e-6, 1e-8}) {
       const auto s = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1, makeTableau<double>(method),
                                        adaptive(tol), Formulation::kIndex3);
-      if (s.outcome != Outcome::kSuccess) continue;
+      if (s.outcome != Outcome::kSuccess) {
+        EXPECT_LT(makeTableau<double>(method).c.maxCoeff(), 1) << method << " " << tol << s.detail;
+        continue;
+      }
       const auto exact = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
                                            makeTableau<double>("radau_iia_7"), adaptive(1e-12));
       EXPECT_LT((s.state.u - exact.state.u).norm(), 1e3 * tol) << method << " " << tol;
       EXPECT_LT((s.state.v - exact.state.v).norm(), 1e3 * tol) << method << " " << tol;
     }
   }
-  const auto radau = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
-                                       makeTableau<double>("radau_iia_5"), adaptive(1e-6), Formulation::kIndex3);
-  EXPECT_EQ(radau.outcome, Outcome::kSuccess) << radau.detail;
 }
 
 // What Newton's method leaves in g = 0 must not enter the estimate of velocities, where it would be divided by h: no

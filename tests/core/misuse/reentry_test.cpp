@@ -17,16 +17,17 @@
 namespace irk::test {
 namespace {
 
-/// x' = -x with a switch at t = 0.5; `at` is called in each residual, with t.
+/// x_i' = -c_i x_i with a switch at t = 0.5; `at` is called in each residual, with t. Fewer unknowns than 100 are
+/// integrated by one thread.
 struct Watched {
   std::function<void(double)> at = {};
-  Sizes sizes() const { return {.nx = 4, .discrete = 1, .switches = 1}; }
+  Sizes sizes() const { return {.nx = 100, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     if constexpr (std::is_same_v<T, double>) {
       if (at) at(p.t);
     }
-    for (Index i = 0; i < 4; ++i) r.x[i] = -static_cast<double>(i + 1) * p.x[i] - p.k[i];
+    for (Index i = 0; i < r.x.size(); ++i) r.x[i] = -static_cast<double>(i % 4 + 1) * p.x[i] - p.k[i];
   }
   template <class T>
   void switching(const Point<T>& p, T* g) const {
