@@ -24,6 +24,18 @@ inline IntegratorOptions adaptive(double tol) {
   return o;
 }
 
+inline IntegratorOptions embedded(double tol) {
+  IntegratorOptions o = adaptive(tol);
+  o.step.estimate = ErrorEstimate::kEmbedded;
+  return o;
+}
+
+inline IntegratorOptions variable(double tol) {
+  IntegratorOptions o = embedded(tol);
+  o.order = OrderControl::kVariable;
+  return o;
+}
+
 template <class Real, class P>
 Solution<Real> integrate(P problem, const State<Real>& start, double t_end, const Tableau<Real>& tableau,
                          const IntegratorOptions& options, Formulation formulation = Formulation::kIndex2) {

@@ -130,8 +130,7 @@ State<double> plucked(Index m) {
 }
 
 TEST(Sparse, FollowsAPatternThatASwitchChanges) {
-  const auto system =
-      makeSystem<double>(LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
+  const auto system = makeSystem<double>(LateContact{});
   Differentiator<double> differentiator(*system, DerivativeSource::kAutomatic, JacobianTerms::kFull, Storage::kSparse);
   State<double> s = plucked(60);
   Linearization<double> D;
@@ -182,8 +181,7 @@ void expectSame(const Solution<double>& a, const Solution<double>& b, double tol
 
 TEST(Sparse, RunsEqualTheirDenseTwins) {
   const Scene<double> ancf = sceneOf("ancf_pendulum", "elements", 8);
-  const auto contact =
-      makeSystem<double>(LateContact{}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate});
+  const auto contact = makeSystem<double>(LateContact{});
   for (const StageSolverKind kind : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
     IntegratorOptions o = fixedSteps(2e-3);
     o.solver = kind;
@@ -205,8 +203,7 @@ TEST(Sparse, RunsEqualTheirDenseTwins) {
 
 TEST(Sparse, DenseFactorsAreKeptForMoreSteps) {
   const Scene<double> chain = sceneOf("beam_chain", "m", 120);
-  IntegratorOptions o = adaptive(1e-5);
-  o.step.estimate = ErrorEstimate::kEmbedded;
+  IntegratorOptions o = embedded(1e-5);
   o.storage = Storage::kSparse;
   const auto sparse = solve(chain.system({}), chain.start, 0.5, o, "radau_iia_5");
   o.storage = Storage::kDense;

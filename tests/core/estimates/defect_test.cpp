@@ -11,7 +11,7 @@
 
 #include "core/derivatives/consistent_start.h"
 #include "core/estimates/step_attempt.h"
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {

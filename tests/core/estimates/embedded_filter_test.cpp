@@ -22,9 +22,7 @@ struct Relaxing {
 // although the error of the step is much smaller.
 TEST(EmbeddedEstimate, OfAFirstStepOverATransientRejectsNothing) {
   for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
-    IntegratorOptions o = adaptive(1e-4);
-    o.step.estimate = ErrorEstimate::kEmbedded;
-    o.step.control = StepControl::kPredictive;
+    IntegratorOptions o = embedded(1e-4);
     o.step.h = 0.1;
     State<double> start(Relaxing{}.sizes());
     start.x[0] = 1 + 4e-3;

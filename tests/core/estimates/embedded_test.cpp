@@ -204,15 +204,13 @@ TEST(EmbeddedEstimate, SeesAnInputAlsoWithAStageAtTheStart) {
 }
 
 TEST(EmbeddedEstimate, RefusesASingularA) {
-  IntegratorOptions o = adaptive(1e-6);
-  o.step.estimate = ErrorEstimate::kEmbedded;
-  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("lobatto_iiia_3"), o), Misuse);
+  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("lobatto_iiia_3"), embedded(1e-6)),
+               Misuse);
 }
 
 // Radau IA with one stage has c = 0 and a = 1: neither the method nor its estimate sees a force that grows from 0.
 TEST(EmbeddedEstimate, RefusesStageOrderZero) {
-  IntegratorOptions o = adaptive(1e-6);
-  o.step.estimate = ErrorEstimate::kEmbedded;
+  const auto o = embedded(1e-6);
   EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_1"), o), Misuse);
   EXPECT_NO_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeTableau<double>("radau_ia_2"), o));
 }
@@ -220,10 +218,8 @@ TEST(EmbeddedEstimate, RefusesStageOrderZero) {
 TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
   for (const char* method : {"radau_iia_3", "radau_iia_4", "gauss_3", "lobatto_iiic_4"}) {
     for (const double tol : {1e-4, 1e-7, 1e-10}) {
-      IntegratorOptions o = adaptive(tol);
-      o.step.estimate = ErrorEstimate::kEmbedded;
-      o.step.control = StepControl::kPredictive;
-      const auto s = integrate<double>(Riccati{}, riccatiStart<double>(), 5, makeTableau<double>(method), o);
+      const auto s =
+          integrate<double>(Riccati{}, riccatiStart<double>(), 5, makeTableau<double>(method), embedded(tol));
       ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
       EXPECT_LT(std::abs(s.state.x[0] - (1.5 + std::sin(5.0))), 20 * tol) << method << " " << tol;
     }

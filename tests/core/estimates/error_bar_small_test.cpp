@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "irk/error_bar.h"
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {

@@ -9,14 +9,6 @@
 namespace irk::test {
 namespace {
 
-IntegratorOptions variable(double tol) {
-  IntegratorOptions o = adaptive(tol);
-  o.order = OrderControl::kVariable;
-  o.step.estimate = ErrorEstimate::kEmbedded;
-  o.step.control = StepControl::kPredictive;
-  return o;
-}
-
 template <class P>
 Solution<double> variableRun(P problem, const State<double>& start, double t_end, const Methods<double>& methods,
                              const IntegratorOptions& options) {

@@ -70,8 +70,7 @@ TEST(Allocation, TheCounterSeesAnAllocation) {
 TEST(Allocation, ConstructorsOfSmallSystemsAllocateLittle) {
   const Scene<double> scene = makeScene<double>("van_der_pol");
   const auto system = scene.system({});
-  IntegratorOptions o = adaptive(1e-4);
-  o.step.estimate = ErrorEstimate::kEmbedded;
+  IntegratorOptions o = embedded(1e-4);
   const auto allocationsOfConstructor = [&](const Methods<double>& methods) {
     const Integrator<double> first(system, methods, o);  // makes what the process keeps
     allocations = 0;
@@ -143,10 +142,7 @@ TEST(Allocation, LargeSystemsAllocateNothingAfterTheFirstStep) {
 
 // A change of order allocates for a member that was not used before, and nothing from then on.
 TEST(Allocation, VariableOrderAllocatesForNewMembersOnly) {
-  IntegratorOptions o = adaptive(1e-9);
-  o.order = OrderControl::kVariable;
-  o.step.estimate = ErrorEstimate::kEmbedded;
-  o.step.control = StepControl::kPredictive;
+  IntegratorOptions o = variable(1e-9);
   o.newton.kind = NewtonKind::kBroyden;
   const auto methods = makeMethods<double>("radau_iia_2", 13, 5);
   const auto expect = [&](const std::shared_ptr<const System<double>>& system, const State<double>& start, double t_end,
@@ -171,13 +167,11 @@ TEST(Allocation, LaterSwitchesAllocateNothing) {
   for (const char* id : {"bouncing_mass", "stick_slip", "elastoplastic", "dc_motor_chopper", "sampled_control",
                          "hydraulic_arm", "mechatronic_crank"}) {
     const Scene<double> scene = makeScene<double>(id);
-    for (const bool embedded : {false, true}) {
-      IntegratorOptions o = adaptive(1e-5);
-      if (embedded) o.step.estimate = ErrorEstimate::kEmbedded;
+    for (const auto& o : {adaptive(1e-5), embedded(1e-5)}) {
       Integrator<double> integrator(scene.system({}), makeTableau<double>("radau_iia_3"), o, scene.scale);
       const double t_end = static_cast<double>(scene.t_end);
       EXPECT_GE(integrator.integrate(scene.start, t_end).counters.switches, 2) << id;
-      EXPECT_EQ(allocationsOf(integrator, scene.start, t_end), 0) << id << (embedded ? " embedded" : " doubling");
+      EXPECT_EQ(allocationsOf(integrator, scene.start, t_end), 0) << id << " " << idOf(o.step.estimate);
     }
   }
 }

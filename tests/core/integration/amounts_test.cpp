@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/integration/amounts.h"
-#include "tests/core/trusted.h"
+#include "tests/core/switching_run.h"
 
 namespace irk::test {
 namespace {

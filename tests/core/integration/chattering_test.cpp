@@ -73,9 +73,7 @@ TEST(Chattering, SwitchesInEveryStepAreNoted) {
   const Ticker problem;
   State<double> start(problem.sizes());
   start.d << 1, 0.5e-3;
-  IntegratorOptions options;
-  options.step.control = StepControl::kFixed;
-  options.step.h = 1e-3;
+  IntegratorOptions options = fixedSteps(1e-3);
   const Result r = run(problem, start, 0.1, Discontinuity::kIgnore, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   EXPECT_EQ(r.solution.counters.switches, 100);

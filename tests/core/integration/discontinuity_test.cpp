@@ -95,10 +95,7 @@ TEST(Iterate, CountsItsIterations) {
 
 TEST(Locate, FixedStepsAreSplit) {
   const Bounce problem;
-  IntegratorOptions options;
-  options.step.control = StepControl::kFixed;
-  options.step.h = 0.03;
-  const Result r = run(problem, height(problem, 1), 3, Discontinuity::kLocate, options);
+  const Result r = run(problem, height(problem, 1), 3, Discontinuity::kLocate, fixedSteps(0.03));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_EQ(r.events.size(), 2u);
   EXPECT_NEAR(r.events[0].t, 1, 1e-12);

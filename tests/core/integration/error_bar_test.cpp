@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {

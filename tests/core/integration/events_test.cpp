@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "irk/scene.h"
-#include "tests/core/located.h"
 #include "tests/core/switching_run.h"
 
 namespace irk::test {
@@ -47,7 +46,7 @@ TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
     for (const bool swapped : {false, true}) {
       const Clocks problem{{swapped ? high : low, swapped ? low : high}};
       for (const bool fixed : {false, true}) {
-        IntegratorOptions options = fixed ? fixedSteps(1) : located(1e-8);
+        IntegratorOptions options = fixed ? fixedSteps(1) : adaptive(1e-8);
         options.step.h = 1;  // both lie in the first step
         const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
         ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << low << r.solution.detail;
@@ -65,7 +64,7 @@ TEST(Events, TheEarlierOfTwoInOneStepComesFirst) {
 
 TEST(Events, BothAtTheSameTimeBothHappen) {
   const Clocks problem{{0.5, 0.5}};
-  const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, located(1e-8));
+  const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_EQ(r.events.size(), 2u);
   EXPECT_NEAR(r.solution.state.x[0], problem.end(1), 1e-8);
@@ -94,7 +93,7 @@ TEST(Events, TheFirstOfTwoCrossingsOfOneFunction) {
   const double pi = std::acos(-1.0);
   for (const double first : {0.05, 0.13, 0.21, 0.33}) {
     const Wave problem{4 * pi, -4 * pi * first};  // up at `first` and at first + 0.5
-    IntegratorOptions options = located(1e-8);
+    IntegratorOptions options = adaptive(1e-8);
     options.step.h = 1;
     const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
     // Due at once if it starts above 0.
@@ -133,7 +132,7 @@ TEST(Events, AJumpHappensAtItsEvent) {
   State<double> start(problem.sizes());
   start.u[0] = 1;
   for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiia_3"}) {
-    const Result r = run(problem, start, 2.25, Discontinuity::kLocate, located(1e-8), method);
+    const Result r = run(problem, start, 2.25, Discontinuity::kLocate, adaptive(1e-8), method);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << method << r.solution.detail;
     ASSERT_EQ(r.events.size(), 2u) << method;
     EXPECT_NEAR(r.events[0].t, 1, 1e-8) << method;
@@ -177,7 +176,7 @@ TEST(Events, WhatFollowsStartsWithConsistentRates) {
 TEST(Events, StartValuesAreNotTakenAcrossAnEvent) {
   const Kink problem;
   for (const auto predictor : {Predictor::kExtrapolated, Predictor::kPrevious, Predictor::kAcceleration}) {
-    IntegratorOptions options = located(1e-6);
+    IntegratorOptions options = adaptive(1e-6);
     options.predictor = predictor;
     options.step.h = 0.2;
     const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kLocate, options);
@@ -214,7 +213,7 @@ struct Blink {
 TEST(Iterate, SeesAModeThatComesAndGoes) {
   for (const double width : {0.2, 0.1}) {
     const Blink problem{width};
-    IntegratorOptions options = located(1e-6);
+    IntegratorOptions options = adaptive(1e-6);
     options.step.h = 1;
     const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
@@ -226,7 +225,7 @@ TEST(Iterate, SeesAModeThatComesAndGoes) {
 // 10 each time.
 TEST(Iterate, ComesCloseToASwitchInFewSteps) {
   const Kink problem;
-  IntegratorOptions options = located(1e-6);
+  IntegratorOptions options = adaptive(1e-6);
   options.step.h = 1;
   const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIterate, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
@@ -239,9 +238,7 @@ TEST(Iterate, ComesCloseToASwitchInFewSteps) {
 TEST(Events, NoStepEndsJustBeforeASwitch) {
   const auto scene = makeScene<double>("mechatronic_crank");
   for (const double tol : {1e-2, 1e-3, 1e-4, 1e-5}) {
-    IntegratorOptions options = located(tol);
-    options.step.estimate = ErrorEstimate::kEmbedded;
-    Integrator<double> integrator(scene.system({}), makeTableau<double>("radau_iia_3"), options, scene.scale);
+    Integrator<double> integrator(scene.system({}), makeTableau<double>("radau_iia_3"), embedded(tol), scene.scale);
     Monitor<double> monitor;
     double last = 0, least = 1;
     monitor.accepted = [&](const StepRecord<double>& step) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/core/located.h"
 #include "tests/core/support.h"
 
 namespace irk::test {
@@ -103,9 +102,7 @@ struct Broken {
 // Each value inside the steps against `exact`, and the ends against the states of the steps.
 template <class P, class Exact>
 void expectInside(const P& problem, const State<double>& start, const IntegratorOptions& options, const Exact& exact) {
-  Integrator<double> integrator(
-      makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
-      makeTableau<double>("radau_iia_5"), options);
+  Integrator<double> integrator(makeSystem<double>(problem), makeTableau<double>("radau_iia_5"), options);
   Monitor<double> monitor;
   State<double> last = start;
   int steps = 0;
@@ -134,7 +131,7 @@ void expectInside(const P& problem, const State<double>& start, const Integrator
 // A step of doubling is two halves, kept for a system without switches, too; each estimate has pieces of its own.
 TEST(InsideStep, FollowsTheSolutionWithEachEstimate) {
   for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
-    IntegratorOptions options = located(1e-9);
+    IntegratorOptions options = adaptive(1e-9);
     options.step.estimate = estimate;
     expectInside(Riccati{}, riccatiStart<double>(), options, [](double t) { return 1.5 + std::sin(t); });
   }
@@ -142,7 +139,7 @@ TEST(InsideStep, FollowsTheSolutionWithEachEstimate) {
 
 // The step to the switch is a shorter one than was tried first.
 TEST(InsideStep, FollowsTheSolutionUpToALocatedSwitch) {
-  IntegratorOptions options = located(1e-9);
+  IntegratorOptions options = adaptive(1e-9);
   options.step.h = 0.3;
   expectInside(Broken{}, State<double>(Broken{}.sizes()), options, Broken::exact);
   expectInside(Broken{}, State<double>(Broken{}.sizes()), fixedSteps(0.11), Broken::exact);

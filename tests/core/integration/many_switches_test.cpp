@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "irk/integrator.h"
-#include "tests/core/located.h"
+#include "tests/core/switching_run.h"
 
 namespace irk::test {
 namespace {
@@ -41,7 +41,7 @@ State<double> fullTanks() {
 }
 
 TEST(ManySwitches, EachIsLocatedInItsTurn) {
-  const auto [solution, events] = run(Tanks{}, fullTanks(), 4, Discontinuity::kLocate, located(1e-8));
+  const auto [solution, events] = run(Tanks{}, fullTanks(), 4, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(solution.outcome, Outcome::kSuccess);
   ASSERT_EQ(events.size(), static_cast<std::size_t>(kTanks));
   for (Index i = 0; i < kTanks; ++i) {
@@ -97,15 +97,12 @@ struct CarrierPulses {
 // One method, or Radau IIA of variable order.
 template <class P>
 Solution<double> integrated(const P& problem, const State<double>& start, double t_end, int stages, double tol) {
-  IntegratorOptions options = located(tol);
-  options.step.estimate = ErrorEstimate::kEmbedded;
   const auto system = makeSystem<double>(problem, {});
   if (stages > 0) {
     const std::string method = "radau_iia_" + std::to_string(stages);
-    return Integrator<double>(system, makeTableau<double>(method), options).integrate(start, t_end);
+    return Integrator<double>(system, makeTableau<double>(method), embedded(tol)).integrate(start, t_end);
   }
-  options.order = OrderControl::kVariable;
-  return Integrator<double>(system, makeMethods<double>("radau_iia", 13, 3), options).integrate(start, t_end);
+  return Integrator<double>(system, makeMethods<double>("radau_iia", 13, 3), variable(tol)).integrate(start, t_end);
 }
 
 // A solution that hardly changes has long steps, in each of which the carrier would have many periods.

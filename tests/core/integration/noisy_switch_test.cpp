@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tests/core/switching_run.h"
-#include "tests/core/trusted.h"
 
 namespace irk::test {
 namespace {

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/core/located.h"
 #include "tests/core/switching_run.h"
 
 namespace irk::test {
@@ -35,7 +34,7 @@ TEST(Events, TheJacobianIsOfTheNewMode) {
   const Stiffening problem;
   for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kBroyden, NewtonKind::kModified}) {
     for (const auto terms : {JacobianTerms::kFull, JacobianTerms::kConstantStiffness}) {
-      IntegratorOptions options = located(1e-6);
+      IntegratorOptions options = adaptive(1e-6);
       options.newton.kind = kind;
       options.jacobian = terms;
       State<double> start(problem.sizes());
@@ -83,9 +82,7 @@ struct SpringRun {
 };
 
 SpringRun springRun(const Spring& problem, const State<double>& start, const IntegratorOptions& options) {
-  Integrator<double> integrator(
-      makeSystem<double>(problem, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
-      makeTableau<double>("radau_iia_3"), options);
+  Integrator<double> integrator(makeSystem<double>(problem), makeTableau<double>("radau_iia_3"), options);
   SpringRun run;
   Monitor<double> monitor;
   monitor.interrupt = [&] { return ++run.attempts, Outcome::kSuccess; };
@@ -113,7 +110,7 @@ TEST(Events, ARestartIsANewStart) {
       int compared = 0;
       for (const double factor : {0.4, 0.8, 1.05, 1.1, 1.15, 1.2, 1.3, 1.5}) {
         const Spring problem{factor};
-        IntegratorOptions options = located(1e-7);
+        IntegratorOptions options = adaptive(1e-7);
         options.step.control = control;
         options.step.estimate = estimate;
         State<double> start(problem.sizes());
@@ -145,7 +142,7 @@ TEST(Events, ARestartIsANewStart) {
 // A step that ends at an event is recorded with its own size, too.
 TEST(Events, StepsAddUp) {
   for (const bool fixed : {false, true}) {
-    IntegratorOptions options = fixed ? fixedSteps(0.17) : located(1e-7);
+    IntegratorOptions options = fixed ? fixedSteps(0.17) : adaptive(1e-7);
     State<double> start(Spring{2}.sizes());
     start.u[0] = 0.7;
     const SpringRun run = springRun({2}, start, options);
@@ -189,7 +186,7 @@ TEST(Events, AreFoundInFewAttempts) {
           const Passing problem{at};
           State<double> start(problem.sizes());
           start.u[0] = 1;
-          IntegratorOptions options = located(tol);
+          IntegratorOptions options = adaptive(tol);
           options.step.h = 0.3;
           const Result r = run(problem, start, 1.2, Discontinuity::kLocate, options, method);
           EXPECT_EQ(r.solution.outcome, Outcome::kSuccess);
@@ -234,7 +231,7 @@ TEST(Events, OfARaceAreOrderedBySolvedSteps) {
           const Race problem{std::exp(crossing), crossing + lag, swapped};
           State<double> start(problem.sizes());
           start.x[0] = 1;
-          IntegratorOptions options = located(tol);
+          IntegratorOptions options = adaptive(tol);
           options.step.h = 1.5;
           for (const char* method : {"radau_iia_2", "radau_iia_3"}) {
             const Result r = run(problem, start, 1.5, Discontinuity::kLocate, options, method);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/derivatives/constraint_frame.h"
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {
@@ -62,11 +62,8 @@ void forEachSetting(F&& f) {
   for (const Formulation formulation : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kIndex2Projected,
                                         Formulation::kGgl, Formulation::kIndex1, Formulation::kFirstOrder}) {
     for (const double tol : {1e-4, 1e-6, 1e-8, 1e-10}) {
-      IntegratorOptions variable = embedded(tol);
-      variable.order = OrderControl::kVariable;
-      variable.step.control = StepControl::kPredictive;
       for (const Setting& c : {Setting{formulation, adaptive(tol), false}, Setting{formulation, embedded(tol), false},
-                               Setting{formulation, variable, true}}) {
+                               Setting{formulation, variable(tol), true}}) {
         SCOPED_TRACE(testing::Message() << idOf(formulation) << " " << tol << " " << idOf(c.options.step.estimate)
                                         << (c.family ? " variable" : ""));
         f(c);

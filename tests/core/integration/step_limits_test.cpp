@@ -12,7 +12,6 @@
 #include "core/estimates/step_attempt.h"
 #include "core/stages/error_norm.h"
 #include "tests/core/support.h"
-#include "tests/core/trusted.h"
 #include "tests/core/watched.h"
 
 namespace irk::test {
@@ -75,8 +74,6 @@ TEST(Steps, EndWellInIndex3) {
 
 TEST(Steps, AreNotBelowTheSmallestButAFailure) {
   IntegratorOptions o = adaptive(1e-10);
-  o.step.control = StepControl::kPredictive;
-  o.step.estimate = ErrorEstimate::kRichardson;
   const auto free = taken(Riccati{}, riccatiStart<double>(), 2, o);
   ASSERT_EQ(free.solution.outcome, Outcome::kSuccess);
   const double least = *std::min_element(free.h.begin(), free.h.end());
@@ -110,10 +107,7 @@ TEST(Steps, AtTimeZeroEndAtAPartOfTheInterval) {
 }
 
 TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
-  IntegratorOptions o = adaptive(1e-7);
-  o.step.control = StepControl::kPredictive;
-  o.step.estimate = ErrorEstimate::kEmbedded;
-  o.order = OrderControl::kVariable;
+  IntegratorOptions o = variable(1e-7);
   for (const double largest : {0.3, 0.1, 0.05}) {
     o.step.h_max = largest;
     Integrator<double> integrator(makeSystem<double>(Riccati{}), makeMethods<double>("radau_iia_3", 13, 5), o);
@@ -128,8 +122,6 @@ TEST(Steps, OfVariableOrderAreNeverAboveTheLargest) {
 
 TEST(Steps, AttemptsAreCountedAgainstTheirLimit) {
   IntegratorOptions o = adaptive(1e-7);
-  o.step.control = StepControl::kPredictive;
-  o.step.estimate = ErrorEstimate::kRichardson;
   const Counters c = taken(Riccati{}, riccatiStart<double>(), 4, o).solution.counters;
   o.step.max_steps = c.steps_accepted + c.steps_rejected_error + c.steps_rejected_newton;
   EXPECT_EQ(taken(Riccati{}, riccatiStart<double>(), 4, o).solution.outcome, Outcome::kSuccess);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/core/located.h"
 #include "tests/core/switching_run.h"
 
 namespace irk::test {
@@ -40,8 +39,7 @@ struct HeavierPendulum {
 // switch sees the state after that.
 TEST(Events, Index3RestartsWithVelocitiesOnTheirConstraint) {
   IntegratorOptions options = fixedSteps(0.05);
-  const auto system =
-      makeSystem<double>(HeavierPendulum{}, {Formulation::kIndex3, ConstraintScaling::kOn, Discontinuity::kLocate});
+  const auto system = makeSystem<double>(HeavierPendulum{}, {Formulation::kIndex3});
   Integrator<double> integrator(system, makeTableau<double>("radau_iia_3"), options);
   State<double> start(system->sizes());
   start.u << 1, 0;
@@ -74,7 +72,7 @@ struct Interrupted {
 // Steps of 0.3 and two halves of 0.301, which say nothing about the size that the motion allows.
 TEST(Steps, ThatAKnownTimeCutsShortDoNotShortenTheNext) {
   for (const auto control : {StepControl::kPredictive, StepControl::kPaper, StepControl::kHotint}) {
-    IntegratorOptions options = located(1e-4);
+    IntegratorOptions options = adaptive(1e-4);
     options.step.control = control;
     options.step.h = options.step.h_max = 0.3;
     State<double> start(Interrupted{}.sizes());
@@ -147,7 +145,7 @@ struct ThereAndBack {
 
 TEST(Ignore, SeesAModeThatComesAndGoesInsideAStep) {
   for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
-    IntegratorOptions options = located(1e-6);
+    IntegratorOptions options = adaptive(1e-6);
     options.step.estimate = estimate;
     options.step.h = 1;
     const Result r =

@@ -5,9 +5,7 @@
 #include <string>
 
 #include "irk/error_bar.h"
-#include "irk/integrator.h"
-#include "irk/problem.h"
-#include "irk/tableaus.h"
+#include "tests/core/support.h"
 #include "tests/refusal.h"
 
 namespace irk::test {
@@ -44,8 +42,9 @@ struct Fall {
   IntegratorOptions options;
   Discontinuity treatment = Discontinuity::kLocate;
 
-  Fall() { options.tolerances = {.rtol = 1e-10, .atol = 1e-10}; }
-  explicit Fall(const std::string& stop_at) : Fall() { options.stop_at = stop_at; }
+  explicit Fall(const std::string& stop_at, const IntegratorOptions& with = adaptive(1e-10)) : options(with) {
+    options.stop_at = stop_at;
+  }
   Integrator<double> integrator() const {
     return {makeSystem<double>(Ball{}, {.discontinuity = treatment}), makeTableau<double>("radau_iia_3"), options};
   }
@@ -80,10 +79,7 @@ TEST(StopRule, ASwitchEndsTheIntegrationRightBehindIt) {
 }
 
 TEST(StopRule, FixedStepsEndThereToo) {
-  Fall fall("impact:2");
-  fall.options.step.control = StepControl::kFixed;
-  fall.options.step.h = 0.1;
-  const auto solution = fall.to(2);
+  const auto solution = Fall("impact:2", fixedSteps(0.1)).to(2);
   ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_NEAR(solution.state.t, 2 * kFirst, 1e-10);
 }
@@ -113,8 +109,7 @@ TEST(StopRule, WhatCannotBeIsRefused) {
 }
 
 TEST(StopRule, TheErrorBarEndsAtItsOwnTimeOfTheSwitch) {
-  Fall fall("impact:3");
-  fall.options.tolerances = {.rtol = 1e-6, .atol = 1e-6};
+  const Fall fall("impact:3", adaptive(1e-6));
   const auto solution = fall.to(1.2);
   Integrator<double> second(makeSystem<double>(Ball{}, {.discontinuity = Discontinuity::kLocate}),
                             makeTableau<double>("lobatto_iiic_4"), Fall("impact:3").options);

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "irk/ggl.h"
-#include "irk/integrator.h"
 #include "irk/misuse.h"
-#include "irk/problem.h"
-#include "irk/tableaus.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {
@@ -64,8 +62,7 @@ void expectStepsEndAtTimes(const Integrated& run) {
 }
 
 TEST(Times, StepsOfAnySizeEndThere) {
-  IntegratorOptions options;
-  options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
+  const auto options = adaptive(1e-11);
   for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
     const Integrated run = integratePulses({}, options, 2, formulation);
     ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
@@ -76,10 +73,7 @@ TEST(Times, StepsOfAnySizeEndThere) {
 }
 
 TEST(Times, FixedStepsAreSplitThere) {
-  IntegratorOptions options;
-  options.step.control = StepControl::kFixed;
-  options.step.h = 0.125;
-  const Integrated run = integratePulses({}, options, 2);
+  const Integrated run = integratePulses({}, fixedSteps(0.125), 2);
   ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
   expectStepsEndAtTimes(run);
   EXPECT_EQ(run.ends.size(), 16u + 2u);  // 1.5 is a multiple of h
@@ -87,8 +81,7 @@ TEST(Times, FixedStepsAreSplitThere) {
 }
 
 TEST(Times, AtTheEndAndTheStartNothingHappens) {
-  IntegratorOptions options;
-  options.tolerances = {.rtol = 1e-11, .atol = 1e-11};
+  const auto options = adaptive(1e-11);
   const Integrated at_end = integratePulses({}, options, kTimes.front());
   EXPECT_EQ(at_end.solution.state.d[0], 0);
   EXPECT_NEAR(at_end.solution.state.x[0], Pulses{}.exact(kTimes.front()), 1e-9);
@@ -124,13 +117,10 @@ struct Wheel {
 TEST(Times, KinksNeedNoModeInAnyFormulation) {
   const double t = 2, phi = t * t / 2 - t * t * t / 6 + (t - 1) * (t - 1) * (t - 1) / 3;
   for (const auto formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl}) {
-    IntegratorOptions options;
-    options.step.control = StepControl::kFixed;
-    options.step.h = 0.3;
     State<double> start({.nu = 2, .nx = 0, .nz = 1, .constraints = 1});
     start.u << 1, 0;
     Integrator<double> integrator(makeSystem<double>(Wheel{}, {.formulation = formulation}),
-                                  makeTableau<double>("radau_iia_7"), options);
+                                  makeTableau<double>("radau_iia_7"), fixedSteps(0.3));
     const auto solution = integrator.integrate(start, t);
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << idOf(formulation) << solution.detail;
     EXPECT_NEAR(solution.state.u[0], std::cos(phi), 1e-10) << idOf(formulation);
@@ -158,14 +148,12 @@ TEST(Times, StatesJumpThereInAnyFormulationAndBesideKinksOfData) {
   const double t = 2, phi = 0.5 + 2 * 0.7 + 4 * 0.8;
   for (const auto formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kIndex3, Formulation::kGgl,
                                  Formulation::kFirstOrder}) {
-    IntegratorOptions options;
-    options.tolerances = {.rtol = 1e-10, .atol = 1e-10};
     State<double> start({.nu = 2, .nx = 0, .nz = 1, .constraints = 1});
     start.u << 1, 0;
     start.v << 0, 1;
     const auto system = makeSystem<double>(Blows{}, {.formulation = formulation}, {0.1, 0.5, 0.9, 1.9});
     EXPECT_EQ(system->times(), (std::vector<double>{0.1, 0.5, 0.9, 1.2, 1.9}));
-    Integrator<double> integrator(system, makeTableau<double>("radau_iia_7"), options);
+    Integrator<double> integrator(system, makeTableau<double>("radau_iia_7"), adaptive(1e-10));
     const auto solution = integrator.integrate(start, t);
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << idOf(formulation) << solution.detail;
     EXPECT_NEAR(solution.state.u[0], std::cos(phi), 1e-8) << idOf(formulation);
@@ -193,10 +181,7 @@ struct Asleep {
 TEST(Times, AnInputThatVanishesAtAllNodesIsSeen) {
   for (const char* method : {"lobatto_iiid_3", "lobatto_iiic_3", "lobatto_iiic_2", "radau_ia_3", "radau_iia_3"}) {
     // The paper's doubling does not look between the stages.
-    for (const auto estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
-      IntegratorOptions options;
-      options.step.estimate = estimate;
-      options.tolerances = {1e-6, 1e-6};
+    for (IntegratorOptions options : {adaptive(1e-6), embedded(1e-6)}) {
       options.step.h = 10;
       Integrator<double> integrator(makeSystem<double>(Asleep{}), makeTableau<double>(method), options);
       const auto solution = integrator.integrate(State<double>(Asleep{}.sizes()), 10);

@@ -2,11 +2,8 @@
 #include <cmath>
 
 #include "core/control/stall_detector.h"
-#include "core/steps/switch_scan.h"
 #include "irk/scene.h"
-#include "tests/core/located.h"
 #include "tests/core/switching_run.h"
-#include "tests/core/trusted.h"
 
 namespace irk::test {
 namespace {
@@ -77,11 +74,8 @@ TEST(Success, Index3ReachesItsEndAtEveryTolerance) {
   const auto system = scene.system({Formulation::kIndex3});
   for (int digits = 2; digits <= 10; ++digits) {
     const double tol = std::pow(10.0, -digits);
-    IntegratorOptions variable = embedded(tol);
-    variable.order = OrderControl::kVariable;
-    variable.step.control = StepControl::kPredictive;
     const auto family = makeMethods<double>("radau_iia_5", 13, 5);
-    const auto s = Integrator<double>(system, family, variable, scene.scale).integrate(scene.start, scene.t_end);
+    const auto s = Integrator<double>(system, family, variable(tol), scene.scale).integrate(scene.start, scene.t_end);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << tol << s.detail;
     Vec<double> rates(system->sizes().n());
     system->evaluate(Level::kVelocity, pointOf(s.state), VecView<double>(rates.data(), rates.size()));
@@ -94,14 +88,14 @@ TEST(Success, Index3ReachesItsEndAtEveryTolerance) {
 TEST(Success, Index3PassesSwitchesAtShortSteps) {
   const auto scene = makeScene<double>("mechatronic_crank");
   const auto exact = Integrator<double>(scene.system({Formulation::kIndex2}), makeTableau<double>("radau_iia_7"),
-                                        located(1e-12), scene.scale)
+                                        adaptive(1e-12), scene.scale)
                          .integrate(scene.start, scene.t_end);
   ASSERT_EQ(exact.outcome, Outcome::kSuccess) << exact.detail;
   const auto system = scene.system({Formulation::kIndex3});
   for (const auto estimate : {ErrorEstimate::kEmbedded, ErrorEstimate::kRichardson}) {
     for (int digits = 3; digits <= 7; ++digits) {
       const double tol = std::pow(10.0, -digits);
-      IntegratorOptions options = located(tol);
+      IntegratorOptions options = adaptive(tol);
       options.step.estimate = estimate;
       const auto s = Integrator<double>(system, makeTableau<double>("radau_iia_5"), options, scene.scale)
                          .integrate(scene.start, scene.t_end);

@@ -2,10 +2,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "core/control/stall_detector.h"
-#include "core/steps/switch_scan.h"
 #include "tests/core/switching_run.h"
-#include "tests/core/trusted.h"
 
 namespace irk::test {
 namespace {

@@ -43,10 +43,7 @@ TEST(AlgebraicUnknowns, SmallErrorsOfThemDoNotStopARun) {
   for (const double eps : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
     const State<double> start(Orifice{eps}.sizes());
     for (const double tol : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6}) {
-      for (const auto order : {OrderControl::kFixed, OrderControl::kVariable}) {
-        IntegratorOptions o = adaptive(tol);
-        o.step.estimate = ErrorEstimate::kEmbedded;
-        o.order = order;
+      for (const auto& o : {embedded(tol), variable(tol)}) {
         const auto s = integrate<double>(Orifice{eps}, start, 1, makeTableau<double>("radau_iia_3"), o);
         ASSERT_EQ(s.outcome, Outcome::kSuccess) << "eps " << eps << ", tolerance " << tol << ": " << s.detail;
         EXPECT_NEAR(s.state.x[0], volume(eps), 10 * tol) << "eps " << eps;

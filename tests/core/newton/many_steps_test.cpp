@@ -4,16 +4,14 @@
 #include <utility>
 
 #include "core/newton/newton_base.h"
-#include "irk/integrator.h"
 #include "irk/scene.h"
-#include "irk/tableaus.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {
 
 IntegratorOptions tight(double tolerance, ErrorEstimate estimate) {
-  IntegratorOptions options;
-  options.tolerances = {tolerance, tolerance, NormKind::kMixed};
+  IntegratorOptions options = adaptive(tolerance);
   options.step.estimate = estimate;
   return options;
 }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/core/trusted.h"
+#include "tests/core/support.h"
 
 namespace irk::test {
 namespace {

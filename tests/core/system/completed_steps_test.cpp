@@ -47,9 +47,8 @@ struct SeenCharts {
 };
 
 SeenCharts charts(Formulation formulation, const IntegratorOptions& options) {
-  Integrator<double> integrator(
-      makeSystem<double>(Charts{}, {formulation, ConstraintScaling::kOn, Discontinuity::kLocate}),
-      makeTableau<double>("radau_iia_3"), options);
+  Integrator<double> integrator(makeSystem<double>(Charts{}, {formulation}), makeTableau<double>("radau_iia_3"),
+                                options);
   SeenCharts seen;
   Monitor<double> monitor;
   monitor.switched = [&](const SwitchRecord<double>& at) {
@@ -64,9 +63,7 @@ SeenCharts charts(Formulation formulation, const IntegratorOptions& options) {
 
 TEST(CompletedSteps, MayAskForAnotherMode) {
   for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
-    IntegratorOptions options;
-    options.tolerances.rtol = options.tolerances.atol = 1e-9;
-    const SeenCharts seen = charts(formulation, options);
+    const SeenCharts seen = charts(formulation, adaptive(1e-9));
     ASSERT_EQ(seen.solution.outcome, Outcome::kSuccess) << idOf(formulation) << seen.solution.detail;
     EXPECT_EQ(seen.modes, (std::vector<double>{1, 2, 3})) << idOf(formulation);
     EXPECT_EQ(seen.solution.counters.switches, 3);
@@ -80,9 +77,7 @@ TEST(CompletedSteps, MayAskForAnotherMode) {
 TEST(CompletedSteps, AreNotCountedAsTheSwitchOfStopAt) {
   IntegratorOptions options;
   options.stop_at = "nine";
-  Integrator<double> integrator(
-      makeSystem<double>(Charts{true}, {Formulation::kIndex2, ConstraintScaling::kOn, Discontinuity::kLocate}),
-      makeTableau<double>("radau_iia_3"), options);
+  Integrator<double> integrator(makeSystem<double>(Charts{true}), makeTableau<double>("radau_iia_3"), options);
   const auto end = integrator.integrate(State<double>(Charts{true}.sizes()), 10);
   ASSERT_EQ(end.outcome, Outcome::kSuccess) << end.detail;
   EXPECT_NEAR(end.state.t, 9, 1e-8);
@@ -104,10 +99,7 @@ TEST(CompletedSteps, AreRefusedBackwardInTime) {
 }
 
 TEST(CompletedSteps, AreCompletedWithFixedStepsToo) {
-  IntegratorOptions options;
-  options.step.control = StepControl::kFixed;
-  options.step.h = 0.01;
-  const SeenCharts seen = charts(Formulation::kIndex2, options);
+  const SeenCharts seen = charts(Formulation::kIndex2, fixedSteps(0.01));
   ASSERT_EQ(seen.solution.outcome, Outcome::kSuccess) << seen.solution.detail;
   // phi = pi/2, 3 pi/2, 5 pi/2: the grid's next points are 1.58, 4.72 and 7.86, and x_1' counts the charts since.
   EXPECT_EQ(seen.modes, (std::vector<double>{1, 2, 3}));
@@ -138,11 +130,8 @@ struct TurnedAxes {
 TEST(CompletedSteps, MayTurnTheAxesInEachFormulation) {
   for (const auto formulation : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kIndex2Projected,
                                  Formulation::kGgl, Formulation::kIndex1, Formulation::kFirstOrder}) {
-    IntegratorOptions options;
-    options.tolerances.rtol = options.tolerances.atol = 1e-8;
-    Integrator<double> integrator(
-        makeSystem<double>(TurnedAxes{}, {formulation, ConstraintScaling::kOn, Discontinuity::kLocate}),
-        makeTableau<double>("radau_iia_3"), options);
+    Integrator<double> integrator(makeSystem<double>(TurnedAxes{}, {formulation}), makeTableau<double>("radau_iia_3"),
+                                  adaptive(1e-8));
     State<double> start(TurnedAxes{}.sizes());
     start.u[0] = start.v[1] = 1;
     const auto end = integrator.integrate(start, 4);
