@@ -52,6 +52,82 @@ struct Oscillators {
   }
 };
 
+/// x' = -x from x = 1.
+struct Decay {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = -p.x[0] - p.k[0];
+  }
+};
+
+/// Base of a system with one switch, which is due from the time `at` on: d[0] is 0 before it and 1 behind it.
+struct SwitchesOnceAt {
+  double at;
+  explicit SwitchesOnceAt(double t) : at(t) {}
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - at);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+/// x' = d, and d is 1 for t in (on, on + width), else 0. The function of switch 0 is a parabola, positive only then.
+struct OnFor {
+  double on, width;
+  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = p.d[0] - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    const bool is_on = p.d[0] > T(0.5);
+    g[0] = is_on ? T(-1.0) : T((p.t - on) * (on + width - p.t));
+    g[1] = is_on ? T(p.t - on - width) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index i, const Point<T>&, T* d) const {
+    d[0] = T(i == 0 ? 1.0 : 0.0);
+  }
+};
+
+/// A ball that falls from height 1 with the acceleration g and keeps the part e of its speed at each impact on the
+/// floor, which d counts.
+struct BouncingBall {
+  double g, e;
+  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -g - p.a[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* due) const {
+    due[0] = p.v[0] < T(0.0) ? T(-p.u[0]) : T(-1.0);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>& p, T* d) const {
+    d[0] = p.d[0] + 1.0;
+  }
+  template <class T>
+  void jump(Index, const Point<T>& p, T*, T* v, T*) const {
+    v[0] = -e * p.v[0];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.u[0] = 1;
+    return s;
+  }
+};
+
+inline State<double> decayStart() {
+  State<double> s(Decay{}.sizes());
+  s.x[0] = 1;
+  return s;
+}
 template <class Real>
 State<Real> pendulumStart() {
   State<Real> s(CartesianPendulum{}.sizes());

@@ -101,7 +101,8 @@ TEST(Sparse, TheNumberOfDirectionsDoesNotGrowWithN) {
 }
 
 // Springs between neighbours; in mode 1 the last mass also pulls at the first one.
-struct LateContact {
+struct LateContact : SwitchesOnceAt {
+  LateContact() : SwitchesOnceAt(0.3) {}
   Index m = 60;
   Sizes sizes() const { return {.nu = m, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
@@ -112,14 +113,6 @@ struct LateContact {
       r.u[i] = 400.0 * (left - 2.0 * p.u[i] + right) - 0.5 * p.v[i] - p.a[i];
     }
     if (p.d[0] > T(0.5)) r.u[0] += 1e4 * (p.u[m - 1] - p.u[0]);
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] > T(0.5) ? T(-1.0) : p.t - 0.3;
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(1.0);
   }
 };
 

@@ -164,24 +164,14 @@ TEST(RichardsonFactors, AreOfTheComponentsOrders) {
   EXPECT_EQ(orders("radau_iia_3", Formulation::kIndex3, kAll), (Orders{5, 5, 5, 5, 5}));
 }
 
-struct Decay {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -p.x[0] - p.k[0];
-  }
-};
-
 // Simplified Newton evaluates s residuals per iteration; the residual test needs one more set of s per solve.
 TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
-  State<double> start(Decay{}.sizes());
-  start.x[0] = 1;
   const auto counters = [&](NewtonKind kind, const char* method, int steps) {
     IntegratorOptions o = fixedSteps(1.0 / steps);
     o.newton.kind = kind;
     o.solver = StageSolverKind::kCoupledDense;
     o.predictor = Predictor::kAcceleration;
-    return integrate<double>(Decay{}, start, 1, makeTableau<double>(method), o).counters;
+    return integrate<double>(Decay{}, decayStart(), 1, makeTableau<double>(method), o).counters;
   };
   struct Case {
     const char* method;
@@ -207,8 +197,6 @@ TEST(Counted, ResidualsAreWhatTheAlgorithmsNeed) {
 
 // Step doubling solves one step and two half steps; it keeps a factorization for each of the two step sizes.
 TEST(Counted, DoublingSolvesThreeTimes) {
-  State<double> start(Decay{}.sizes());
-  start.x[0] = 1;
   for (const auto estimate : {ErrorEstimate::kDoubling, ErrorEstimate::kRichardson, ErrorEstimate::kDoublingScalar}) {
     IntegratorOptions o = adaptive(1e-2);
     o.step.estimate = estimate;
@@ -217,7 +205,7 @@ TEST(Counted, DoublingSolvesThreeTimes) {
     o.step.h_max = 0.125;
     o.newton.kind = NewtonKind::kModified;
     o.predictor = Predictor::kAcceleration;
-    const auto all = taken(Decay{}, start, 1, o, "radau_iia_2").solution;
+    const auto all = taken(Decay{}, decayStart(), 1, o, "radau_iia_2").solution;
     ASSERT_EQ(all.outcome, Outcome::kSuccess);
     EXPECT_EQ(all.counters.steps_accepted, 8) << idOf(estimate);
     EXPECT_EQ(all.counters.newton_iterations, 24) << idOf(estimate);

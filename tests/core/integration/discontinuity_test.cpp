@@ -120,29 +120,9 @@ TEST(Locate, SwitchAtTheStartHappensThere) {
   EXPECT_NEAR(on.events[0].t, 0, 1e-14);
 }
 
-/// A signal that is on for a short time, t in (on, on + width).
-struct Pulse {
-  double width;
-  double on = 0.5;
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = p.d[0] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] == T(0.0) ? T((p.t - on) * (on + width - p.t)) : T(-1.0);
-    g[1] = p.d[0] == T(0.0) ? T(-1.0) : T(p.t - on - width);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    d[0] = i == 0 ? T(1.0) : T(0.0);
-  }
-};
-
 // The start lies on the switching surface and the switch is due at once: g = t.
 TEST(Locate, SwitchDueRightAfterTheStart) {
-  const Pulse problem{0.2, 0};
+  const OnFor problem{0, 0.2};
   const State<double> start(problem.sizes());
   const Result r = run(problem, start, 1, Discontinuity::kLocate, adaptive(1e-8));
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
@@ -164,7 +144,7 @@ TEST(Locate, SwitchAtTheEnd) {
 }
 
 TEST(Locate, TwoSwitchesInOneStep) {
-  const Pulse problem{0.2};
+  const OnFor problem{0.5, 0.2};
   State<double> start(problem.sizes());
   IntegratorOptions options = adaptive(1e-8);
   options.step.h = 1;  // the whole interval is the first step

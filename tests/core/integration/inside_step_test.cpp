@@ -80,21 +80,13 @@ TEST(InsideStep, HasTheOrderThatIsDocumented) {
 }
 
 /// x' = cos t up to t = 0.7, then x' = -x^2; x(0) = 0.
-struct Broken {
+struct Broken : SwitchesOnceAt {
+  Broken() : SwitchesOnceAt(0.7) {}
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
     r.x[0] = (p.d[0] > T(0.5) ? T(-p.x[0] * p.x[0]) : T(cos(p.t))) - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    using std::exp;
-    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(exp(p.t) - exp(0.7));
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(1.0);
   }
   static double exact(double t) { return t < 0.7 ? std::sin(t) : 1 / (1 / std::sin(0.7) + t - 0.7); }
 };

@@ -65,21 +65,11 @@ TEST(Integrator, MultiprecisionGoesBelowDouble) {
 
 // A linear problem with constant coefficients needs one Jacobian, one factorization, and per step one iteration of
 // the paper's Newton method, after which the residual is at round-off. (`modified` would look at one more increment.)
-struct Linear {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -p.x[0] - p.k[0];
-  }
-};
-
 TEST(Integrator, CountersAreWhatTheAlgorithmSays) {
-  State<double> start(Linear{}.sizes());
-  start.x[0] = 1;
   IntegratorOptions o = fixedSteps(0.125);
   o.predictor = Predictor::kAcceleration;
   o.newton.kind = parseId<NewtonKind>("paper_rule");
-  const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("radau_iia_2"), o);
+  const auto s = integrate<double>(Decay{}, decayStart(), 1, makeTableau<double>("radau_iia_2"), o);
   ASSERT_EQ(s.outcome, Outcome::kSuccess);
   EXPECT_EQ(s.counters.steps_accepted, 8);
   EXPECT_EQ(s.counters.jacobians, 1 + 1) << "one of the consistent start";
@@ -90,10 +80,8 @@ TEST(Integrator, CountersAreWhatTheAlgorithmSays) {
 }
 
 TEST(Integrator, FixedStepsEndAtTheEnd) {
-  State<double> start(Linear{}.sizes());
-  start.x[0] = 1;
   for (const double h : {0.1, 0.3, 2.0}) {
-    const auto s = integrate<double>(Linear{}, start, 1, makeTableau<double>("gauss_8"), fixedSteps(h));
+    const auto s = integrate<double>(Decay{}, decayStart(), 1, makeTableau<double>("gauss_8"), fixedSteps(h));
     EXPECT_EQ(s.outcome, Outcome::kSuccess);
     EXPECT_EQ(s.state.t, 1.0);
     EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-14);
@@ -102,17 +90,15 @@ TEST(Integrator, FixedStepsEndAtTheEnd) {
 }
 
 TEST(Integrator, ARunStopsWhereItsCallerSays) {
-  State<double> start(Linear{}.sizes());
-  start.x[0] = 1;
-  Integrator<double> integrator(makeSystem<double>(Linear{}), makeTableau<double>("gauss_1"), fixedSteps(0.1));
+  Integrator<double> integrator(makeSystem<double>(Decay{}), makeTableau<double>("gauss_1"), fixedSteps(0.1));
   int steps = 0;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>&) { ++steps; };
   monitor.interrupt = [&] { return steps == 3 ? Outcome::kTimeout : Outcome::kSuccess; };
-  const auto s = integrator.integrate(start, 1.0, monitor);
+  const auto s = integrator.integrate(decayStart(), 1.0, monitor);
   EXPECT_EQ(s.outcome, Outcome::kTimeout);
   EXPECT_NEAR(s.state.t, 0.3, 1e-15);
-  EXPECT_EQ(integrator.integrate(start, 1.0).outcome, Outcome::kSuccess);
+  EXPECT_EQ(integrator.integrate(decayStart(), 1.0).outcome, Outcome::kSuccess);
 }
 
 struct NotFinite {

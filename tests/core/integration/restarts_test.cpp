@@ -10,21 +10,14 @@ namespace irk::test {
 namespace {
 
 /// x' = -rate (x - 1), with a rate a million times larger from t = 0.5 on.
-struct Stiffening {
+struct Stiffening : SwitchesOnceAt {
+  Stiffening() : SwitchesOnceAt(0.5) {}
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::cos;
     const double rate = p.d[0] > T(0.5) ? 1e6 : 1;
     r.x[0] = -rate * (p.x[0] - cos(p.t)) - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - 0.5);
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(1.0);
   }
 };
 
@@ -56,22 +49,15 @@ struct Step {
 };
 
 /// A driven oscillator whose spring stiffness changes at t = 0.5.
-struct Spring {
+struct Spring : SwitchesOnceAt {
   double factor;
+  explicit Spring(double f) : SwitchesOnceAt(0.5), factor(f) {}
   Sizes sizes() const { return {.nu = 1, .nx = 0, .nz = 0, .constraints = 0, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     using std::sin;
     const double k = p.d[0] > T(0.5) ? 9 * factor : 9;
     r.u[0] = sin(3.0 * p.t) - k * sin(p.u[0]) - p.a[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - 0.5);
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(1.0);
   }
 };
 
@@ -145,7 +131,7 @@ TEST(Events, StepsAddUp) {
     IntegratorOptions options = fixed ? fixedSteps(0.17) : adaptive(1e-7);
     State<double> start(Spring{2}.sizes());
     start.u[0] = 0.7;
-    const SpringRun run = springRun({2}, start, options);
+    const SpringRun run = springRun(Spring{2}, start, options);
     double t = 0;
     for (const Step& s : run.steps) {
       EXPECT_NEAR(s.h, s.t - t, 1e-13) << "at t = " << s.t;

@@ -59,13 +59,8 @@ TEST(Events, Index3RestartsWithVelocitiesOnTheirConstraint) {
   EXPECT_NEAR(length[1], 1, 1e-14);
 }
 
-/// x' = -x; nothing happens at the declared time.
-struct Interrupted {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -p.x[0] - p.k[0];
-  }
+/// Nothing happens at the declared time.
+struct Interrupted : Decay {
   std::vector<double> times() const { return {0.601}; }
 };
 
@@ -75,13 +70,11 @@ TEST(Steps, ThatAKnownTimeCutsShortDoNotShortenTheNext) {
     IntegratorOptions options = adaptive(1e-4);
     options.step.control = control;
     options.step.h = options.step.h_max = 0.3;
-    State<double> start(Interrupted{}.sizes());
-    start.x[0] = 1;
     std::vector<double> sizes;
     Monitor<double> monitor;
     monitor.accepted = [&](const StepRecord<double>& s) { sizes.push_back(s.h); };
     Integrator<double> integrator(makeSystem<double>(Interrupted{}), makeTableau<double>("radau_iia_5"), options);
-    ASSERT_EQ(integrator.integrate(start, 2, monitor).outcome, Outcome::kSuccess) << idOf(control);
+    ASSERT_EQ(integrator.integrate(decayStart(), 2, monitor).outcome, Outcome::kSuccess) << idOf(control);
     ASSERT_GE(sizes.size(), 4u);
     EXPECT_NEAR(sizes[1], 0.1505, 1e-12) << idOf(control);
     EXPECT_NEAR(sizes[2], 0.1505, 1e-12) << idOf(control);
@@ -123,35 +116,15 @@ TEST(Events, AnEarlierOneThatOnlyTheShortenedStepShowsComesFirst) {
   EXPECT_NEAR(r.events[1].t, 0.7, 1e-12);
 }
 
-/// x' = 1, and 1.5 for t in (0.34, 0.48): between the stages 0.155 and 0.645 of a step of 1 with three stages of Radau
-/// IIA, and between 0.322 and 0.5 of its halves.
-struct ThereAndBack {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 2}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = 1.0 + 0.5 * p.d[0] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    const bool on = p.d[0] > T(0.5);
-    g[0] = on ? T(-1.0) : T((p.t - 0.34) * (0.48 - p.t));
-    g[1] = on ? T(p.t - 0.48) : T(-1.0);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    d[0] = T(i == 0 ? 1.0 : 0.0);
-  }
-};
-
 TEST(Ignore, SeesAModeThatComesAndGoesInsideAStep) {
-  for (const ErrorEstimate estimate : {ErrorEstimate::kRichardson, ErrorEstimate::kEmbedded}) {
-    IntegratorOptions options = adaptive(1e-6);
-    options.step.estimate = estimate;
+  // Between the stages 0.155 and 0.645 of a step of 1 with Radau IIA, and between 0.322 and 0.5 of its halves.
+  const OnFor problem{0.34, 0.14};
+  for (IntegratorOptions options : {adaptive(1e-6), embedded(1e-6)}) {
     options.step.h = 1;
-    const Result r =
-        run(ThereAndBack{}, State<double>(ThereAndBack{}.sizes()), 1, Discontinuity::kIgnore, options, "radau_iia_3");
-    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(estimate) << ": " << r.solution.detail;
-    EXPECT_NEAR(r.solution.state.x[0], 1.07, 1e-4) << idOf(estimate) << ", a step over it: 1";
+    const Result r = run(problem, State<double>(problem.sizes()), 1, Discontinuity::kIgnore, options, "radau_iia_3");
+    const auto estimate = idOf(options.step.estimate);
+    ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << estimate << ": " << r.solution.detail;
+    EXPECT_NEAR(r.solution.state.x[0], 0.14, 1e-4) << estimate << ", a step over it: 0";
   }
 }
 

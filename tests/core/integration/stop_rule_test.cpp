@@ -122,27 +122,17 @@ TEST(StopRule, TheErrorBarEndsAtItsOwnTimeOfTheSwitch) {
   EXPECT_LT(bar.v[0], 1e-4) << "both states are behind the impact";
 }
 
-/// x' = -x from x = 1: its rate is steady |x|, or steady times the scale 1, at t = log(1 / steady).
-struct Decay {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -p.x[0] - p.k[0];
-  }
-};
-
+// The rate is steady |x|, or steady times the scale 1, at t = log(1 / steady).
 TEST(StopRule, AStateThatHardlyChangesEndsIt) {
   IntegratorOptions options;
   options.steady = 1e-3;
   options.step.h_max = 0.01;
   Integrator<double> integrator(makeSystem<double>(Decay{}), makeTableau<double>("radau_iia_3"), options);
-  State<double> start(Decay{}.sizes());
-  start.x << 1;
-  const auto solution = integrator.integrate(start, 100);
+  const auto solution = integrator.integrate(decayStart(), 100);
   ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_NEAR(solution.state.t, std::log(1e3), 0.02) << "the first step's end behind it";
   EXPECT_EQ(solution.detail.rfind("steady to 0.001", 0), 0u) << solution.detail;
-  const auto before = integrator.integrate(start, 6);
+  const auto before = integrator.integrate(decayStart(), 6);
   EXPECT_EQ(before.outcome, Outcome::kNoEvent);
   EXPECT_NE(before.detail.find("steady to 0.001"), std::string::npos) << before.detail;
 }

@@ -8,41 +8,18 @@
 namespace irk::test {
 namespace {
 
-/// A ball whose velocity jumps at the floor: v -> -0.8 v.
-struct Jumping {
-  Sizes sizes() const { return {.nu = 1, .discrete = 1, .switches = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -10.0 - p.a[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.v[0] < T(0.0) ? T(-p.u[0]) : T(-1.0);
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>& p, T* d) const {
-    d[0] = p.d[0] + 1.0;
-  }
-  template <class T>
-  void jump(Index, const Point<T>& p, T*, T* v, T*) const {
-    v[0] = -0.8 * p.v[0];
-  }
-};
-
 TEST(Success, JumpsOfTheStateAreLocatedOrRefused) {
-  const Jumping ball;
-  State<double> start(ball.sizes());
-  start.u[0] = 1;
+  const BouncingBall ball{10, 0.8};
   // It falls for sqrt(0.2), then rises with 0.8 sqrt(20) for the rest.
   const double fall = std::sqrt(0.2), left = 1 - fall;
   const double height = 0.8 * std::sqrt(20.0) * left - 5 * left * left;
   for (const auto& options : {adaptive(1e-8), embedded(1e-8)}) {
-    const Result r = run(ball, start, 1, Discontinuity::kLocate, options);
+    const Result r = run(ball, ball.start(), 1, Discontinuity::kLocate, options);
     ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
     EXPECT_NEAR(r.solution.state.u[0], height, 1e-9);
   }
   for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate}) {
-    EXPECT_THROW((void)run(ball, start, 1, mode, adaptive(1e-8)), Misuse);
+    EXPECT_THROW((void)run(ball, ball.start(), 1, mode, adaptive(1e-8)), Misuse);
   }
 }
 

@@ -68,30 +68,10 @@ TEST(Success, ContactInsideOneStepIsSeenWithoutLocation) {
   }
 }
 
-/// x' = d, where d is 1 while |t - centre| < `width`; the switching function, a parabola, is positive only then.
-struct Flash {
-  double centre = 0.53, width = 1e-3;
-  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 2}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = p.d[0] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    const T away = p.t - centre;
-    g[0] = p.d[0] == T(0.0) ? T(width * width - away * away) : T(-1.0);
-    g[1] = p.d[0] == T(0.0) ? T(-1.0) : T(away - width);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    d[0] = i == 0 ? T(1.0) : T(0.0);
-  }
-};
-
 // The pulse lasts a hundredth of the distance between two samples; it also occurs at both ends of a step.
 TEST(Success, SwitchThatComesAndGoesBetweenTwoSamplesIsFound) {
   for (const double centre : {0.002, 0.03, 0.06, 0.3, 0.53, 0.77, 0.94, 0.97, 0.998}) {
-    const Flash problem{centre, 1e-3};
+    const OnFor problem{centre - 1e-3, 2e-3};
     const State<double> start(problem.sizes());
     for (IntegratorOptions options : {adaptive(1e-8), embedded(1e-8)}) {
       options.step.h = 1;  // the whole interval is the first step
@@ -139,43 +119,7 @@ TEST(Success, CornerThatRisesAboveZeroNextToAnEndOfAStepIsFound) {
   }
 }
 
-/// Two switches in one step; each of them adds its own rate.
-struct Pair {
-  double first, second;
-  Sizes sizes() const { return {.nx = 1, .discrete = 2, .switches = 2}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = p.d[0] + 10.0 * p.d[1] - p.k[0];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.t - first);
-    g[1] = p.d[1] > T(0.5) ? T(-1.0) : T(p.t - second);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    d[i] = T(1.0);
-  }
-};
-
-TEST(Success, SwitchesInOneStepComeInTheirOrder) {
-  const double pairs[][2] = {{0.3, 0.6}, {0.6, 0.3}, {0.5, 0.5001}, {0.5001, 0.5}, {0.4, 0.4}};
-  for (const auto& [first, second] : pairs) {
-    const Pair problem{first, second};
-    const State<double> start(problem.sizes());
-    for (IntegratorOptions options : {adaptive(1e-9), embedded(1e-9)}) {
-      options.step.h = 1;
-      const Result r = run(problem, start, 1, Discontinuity::kLocate, options);
-      ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
-      ASSERT_EQ(r.events.size(), 2u);
-      EXPECT_NEAR(r.events[0].t, std::min(first, second), 1e-11);
-      EXPECT_NEAR(r.events[1].t, std::max(first, second), 1e-11);
-      EXPECT_NEAR(r.solution.state.x[0], 1 - first + 10 * (1 - second), 1e-9);
-    }
-  }
-}
-
-/// The same system with a switch that the problem does not declare: x' = 1 from t = 0.5123 on.
+/// A system with a switch that the problem does not declare: x' = 1 from t = 0.5123 on.
 struct Undeclared {
   double at = 0.5123;
   Sizes sizes() const { return {.nu = 1, .nx = 1}; }

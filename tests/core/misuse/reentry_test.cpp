@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel_loop.h"
@@ -17,25 +18,18 @@
 namespace irk::test {
 namespace {
 
-/// x_i' = -c_i x_i with a switch at t = 0.5; `at` is called in each residual, with t. Fewer unknowns than 100 are
+/// x_i' = -c_i x_i with a switch at t = 0.5; `called` is called in each residual, with t. Fewer unknowns than 100 are
 /// integrated by one thread.
-struct Watched {
-  std::function<void(double)> at = {};
+struct Watched : SwitchesOnceAt {
+  std::function<void(double)> called;
+  explicit Watched(std::function<void(double)> f = {}) : SwitchesOnceAt(0.5), called(std::move(f)) {}
   Sizes sizes() const { return {.nx = 100, .discrete = 1, .switches = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     if constexpr (std::is_same_v<T, double>) {
-      if (at) at(p.t);
+      if (called) called(p.t);
     }
     for (Index i = 0; i < r.x.size(); ++i) r.x[i] = -static_cast<double>(i % 4 + 1) * p.x[i] - p.k[i];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = p.d[0] > 0 ? T(-1) : T(p.t - 0.5);
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T* d) const {
-    d[0] = T(1);
   }
 };
 
@@ -128,8 +122,8 @@ TEST(Reentry, AnExceptionOfTheResidualReachesTheCallerWithAnyNumberOfThreads) {
 // Bit for bit as one that has never thrown.
 TEST(Reentry, AnIntegratorMayBeUsedAfterAnException) {
   for (const int threads : {1, 2}) {
-    auto fresh = integratorOf({}, threads);
-    const auto expected = fresh.integrate(startOf({}), 1.0);
+    auto fresh = integratorOf(Watched{}, threads);
+    const auto expected = fresh.integrate(startOf(Watched{}), 1.0);
     std::atomic<bool> throws = true;
     const Watched problem{[&throws](double t) {
       if (throws && isInside(t)) throw std::runtime_error("residual");

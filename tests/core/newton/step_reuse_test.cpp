@@ -15,15 +15,6 @@ constexpr int kOfStart = 1;
 
 NewtonKind newtonNamed(std::string_view id) { return parseId<NewtonKind>(id); }
 
-/// x' = -x: a Jacobian never becomes inaccurate, so that no iteration requests another one.
-struct Linear {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -p.x[0] - p.k[0];
-  }
-};
-
 /// x' = 5 x (1 - x): the Jacobian changes along the solution, and so do the steps.
 struct Logistic {
   Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
@@ -43,10 +34,10 @@ Taken stepsOf(const P& problem, double x0, double t_end, std::string_view newton
   return all;
 }
 
-// Three steps of 0.3 and one of 0.1.
+// Three steps of 0.3 and one of 0.1. The problem is linear: no iteration asks for another Jacobian.
 TEST(ReuseByStep, CountsTheJacobiansOfFixedSteps) {
   const auto jacobians = [](std::string_view newton) {
-    return stepsOf(Linear{}, 1, 1, newton, fixedSteps(0.3)).solution.counters.jacobians;
+    return stepsOf(Decay{}, 1, 1, newton, fixedSteps(0.3)).solution.counters.jacobians;
   };
   EXPECT_EQ(jacobians("modified"), kOfStart + 1);
   EXPECT_EQ(jacobians("modified_each_step"), kOfStart + 4);
