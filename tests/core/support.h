@@ -54,4 +54,25 @@ inline double slope(const std::vector<double>& h, const std::vector<double>& err
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+/// The observed order: the slope of an error that is computed for each step size.
+template <class ErrorOf>
+double orderOf(const std::vector<double>& h, const ErrorOf& error_of) {
+  std::vector<double> errors;
+  for (const double step : h) errors.push_back(error_of(step));
+  return slope(h, errors);
+}
+
+/// The orders of several errors, which `errors_of` returns together, always in the same number.
+template <class ErrorsOf>
+std::vector<double> ordersOf(const std::vector<double>& h, const ErrorsOf& errors_of) {
+  std::vector<std::vector<double>> errors;
+  for (const double step : h) errors.push_back(errors_of(step));
+  std::vector<double> orders;
+  for (std::size_t i = 0; i < errors.front().size(); ++i) {
+    std::size_t step = 0;
+    orders.push_back(orderOf(h, [&](double) { return errors[step++][i]; }));
+  }
+  return orders;
+}
+
 }  // namespace irk::test

@@ -11,7 +11,7 @@
 
 #include "core/derivatives/consistent_start.h"
 #include "core/estimates/step_attempt.h"
-#include "tests/core/support.h"
+#include "tests/core/one_step.h"
 
 namespace irk::test {
 namespace {
@@ -27,41 +27,24 @@ struct ForcedPair {
   }
 };
 
-/// A stepper with its filter, for one step.
+/// One step and its defect.
 template <class P>
-struct SolvedStepOf {
+struct SolvedStepOf : OneStep<P> {
   SolvedStepOf(const P& problem, const char* method, double tol)
-      : options(embedded(tol)),
-        system(makeSystem<double>(problem, {})),
-        scheme(makeTableau<double>(method)),
-        norm(*system, options.tolerances, {}),
-        jacobian(*system, scheme, options, counters),
-        stepper(*system, scheme, options, jacobian, norm, counters),
-        estimate(*system, scheme, options, stepper.matrix(), norm, counters),
-        defect(estimate, scheme, system->sizes(), Defect<double>::Start::kLeaveOut, options.step.looks),
-        points(scheme, options.step.looks) {}
+      : OneStep<P>(problem, method, embedded(tol), adaptive(tol).tolerances),
+        defect(this->estimate, this->scheme, this->system->sizes(), Defect<double>::Start::kLeaveOut,
+               this->options.step.looks),
+        points(this->scheme, this->options.step.looks) {}
 
   void solve(State<double> start, double h) {
-    ConsistentStart<double> consistent(*system, options.derivatives, false, &counters);
+    ConsistentStart<double> consistent(*this->system, this->options.derivatives, false, &this->counters);
     ASSERT_EQ(consistent.apply(start).outcome, Outcome::kSuccess);
-    from = start;
-    to = start;
-    norm.update(from);
     defect.begin(h);
-    ASSERT_EQ(stepper.attempt(stepper.stages(), from, h, to).outcome, Outcome::kSuccess);
+    ASSERT_EQ(OneStep<P>::solve(start, h), Outcome::kSuccess);
   }
 
-  IntegratorOptions options;
-  Counters counters;
-  std::shared_ptr<const System<double>> system;
-  Scheme<double> scheme;
-  ErrorNorm<double> norm;
-  SharedJacobian<double> jacobian;
-  Stepper<double> stepper;
-  EmbeddedEstimate<double> estimate;
   Defect<double> defect;
   MovingPoints<double> points;
-  State<double> from, to;
 };
 
 // Lagrange's polynomial through the stages, and its integrals by Gauss's rule with many points.

@@ -7,8 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "core/steps/stepper.h"
-#include "tests/core/support.h"
+#include "tests/core/one_step.h"
 
 namespace irk::test {
 namespace {
@@ -36,69 +35,41 @@ State<double> movingRiccati() {
   return start;
 }
 
-/// Takes one step and estimates its error.
+/// One step from `start`, and the estimate of its error.
 template <class P>
-class OneStep {
- public:
-  OneStep(P problem, const State<double>& start, const std::string& method, double h,
-          StageSolverKind solver = StageSolverKind::kSchur)
-      : system_(makeSystem<double>(problem)),
-        scheme_(makeTableau<double>(method)),
-        options_(with(solver)),
-        norm_(*system_, {0, 1e-12, NormKind::kAbsolute}, {}),
-        jacobian_(*system_, scheme_, options_, counters_),
-        stepper_(*system_, scheme_, options_, jacobian_, norm_, counters_),
-        estimate_(*system_, scheme_, options_, stepper_.matrix(), norm_, counters_),
-        start_(start),
-        end_(system_->sizes()) {
-    norm_.update(start_);
-    EXPECT_EQ(stepper_.attempt(stepper_.stages(), start_, h, end_).outcome, Outcome::kSuccess);
+struct EstimatedStep : OneStep<P> {
+  EstimatedStep(const P& problem, const State<double>& start, const std::string& method, double h,
+                StageSolverKind solver = StageSolverKind::kSchur)
+      : OneStep<P>(problem, method, with(solver), {0, 1e-12, NormKind::kAbsolute}) {
+    EXPECT_EQ(this->solve(start, h), Outcome::kSuccess);
   }
-
-  const Mat<double>& stages() const { return stepper_.stages().W; }
-  const Scheme<double>& scheme() const { return scheme_; }
-  const State<double>& end() const { return end_; }
-  double mu() const { return estimate_.mu(); }
-  double error(bool again = false) {
-    const double again_above = again ? 1 : std::numeric_limits<double>::infinity();
-    const auto result = estimate_.evaluate(start_, stepper_.stages(), again_above);
-    EXPECT_EQ(result.outcome, Outcome::kSuccess);
-    return result.error;
-  }
-  const Counters& counters() const { return counters_; }
-
- private:
   static IntegratorOptions with(StageSolverKind solver) {
     IntegratorOptions o = adaptive(1e-12);
     o.solver = solver;
     return o;
   }
-
-  std::shared_ptr<const System<double>> system_;
-  Scheme<double> scheme_;
-  IntegratorOptions options_;
-  Counters counters_;
-  ErrorNorm<double> norm_;
-  SharedJacobian<double> jacobian_;
-  Stepper<double> stepper_;
-  EmbeddedEstimate<double> estimate_;
-  State<double> start_, end_;
+  double error(bool again = false) {
+    const double again_above = again ? 1 : std::numeric_limits<double>::infinity();
+    const auto result = this->estimate.evaluate(this->from, this->stepper.stages(), again_above);
+    EXPECT_EQ(result.outcome, Outcome::kSuccess);
+    return result.error;
+  }
 };
 
 // The system of a real eigenvalue is also one of the stages' systems, so the estimate reuses its factors. If the
 // stages are coupled, or all eigenvalues are complex, the estimate factorizes its own; the numbers are the same.
 TEST(Embedded, SharesTheStagesFactorsWhereTheyHaveThem) {
   for (const char* method : {"radau_iia_3", "radau_iia_5", "radau_iia_4"}) {
-    OneStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, StageSolverKind::kCoupledDense);
+    EstimatedStep own(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, StageSolverKind::kCoupledDense);
     const double expected = own.error(true);
     EXPECT_GT(expected, 1);
     for (const auto solver : {StageSolverKind::kSchur, StageSolverKind::kEigen}) {
       SCOPED_TRACE(std::string(method) + " " + std::string(idOf(solver)));
-      OneStep shared(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, solver);
-      const auto before = shared.counters().factorizations;
+      EstimatedStep shared(CartesianPendulum{}, pendulumStart<double>(), method, 0.05, solver);
+      const auto before = shared.counters.factorizations;
       EXPECT_NEAR(shared.error(true), expected, 1e-7 * expected);
       const bool odd = std::string(method) != "radau_iia_4";
-      EXPECT_EQ(shared.counters().factorizations - before, odd ? 0 : 1);
+      EXPECT_EQ(shared.counters.factorizations - before, odd ? 0 : 1);
     }
   }
 }
@@ -126,9 +97,9 @@ TEST(EmbeddedEstimate, IsHairerAndWannersForAnOrdinaryEquation) {
   for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "gauss_4", "lobatto_iiic_3",
                              "lobatto_iiid_4", "radau_ia_3"}) {
     for (const double h : {0.5, 0.05}) {
-      OneStep step(Riccati{}, movingRiccati(), method, h);
+      EstimatedStep step(Riccati{}, movingRiccati(), method, h);
       const double f0 = std::cos(0.7), J = -2 * (1.5 + std::sin(0.7));  // f and df/dy = -2 y
-      const double expected = hairerWanner(step.scheme(), step.stages(), step.mu(), f0, J, h);
+      const double expected = hairerWanner(step.scheme, step.stepper.stages().W, step.estimate.mu(), f0, J, h);
       EXPECT_NEAR(step.error() * 1e-12, expected, 1e-6 * expected + 1e-15) << method << " " << h;
     }
   }
@@ -161,8 +132,8 @@ TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
   first.w << start.v, start.w;
   for (const char* method : {"radau_iia_3", "gauss_4", "lobatto_iiic_3"}) {
     for (const bool again : {false, true}) {
-      OneStep second(Oscillators{}, start, method, 0.02);
-      OneStep reference(FirstOrderOscillators{}, first, method, 0.02);
+      EstimatedStep second(Oscillators{}, start, method, 0.02);
+      EstimatedStep reference(FirstOrderOscillators{}, first, method, 0.02);
       EXPECT_GT(reference.error(again), 1);  // else it is not filtered again
       EXPECT_NEAR(second.error(again) / reference.error(again), 1, 1e-3) << method << again;
     }
@@ -172,15 +143,10 @@ TEST(EmbeddedEstimate, SecondOrderSystemsHaveTheEstimateOfTheirFirstOrderForm) {
 TEST(EmbeddedEstimate, HasOrderS) {
   const auto start = movingRiccati();
   for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "gauss_3", "lobatto_iiic_3", "radau_ia_4"}) {
-    std::vector<double> steps, errors;
-    for (const double h : {0.08, 0.06, 0.04, 0.03}) {
-      OneStep step(Riccati{}, start, method, h);
-      steps.push_back(h);
-      errors.push_back(step.error());
-    }
+    const auto errorOf = [&](double h) { return EstimatedStep(Riccati{}, start, method, h).error(); };
     const auto tableau = makeTableau<double>(method);
     const double order = static_cast<double>(tableau.stages()) - (tableau.c[0] == 0 ? 1 : 0);
-    EXPECT_NEAR(slope(steps, errors), order + 1, 0.3) << method;
+    EXPECT_NEAR(orderOf({0.08, 0.06, 0.04, 0.03}, errorOf), order + 1, 0.3) << method;
     EXPECT_EQ(EmbeddedEstimate<double>::order(tableau), order) << method;
   }
 }
@@ -198,8 +164,8 @@ struct Input {
 // A polynomial through a stage at the start would have no defect there.
 TEST(EmbeddedEstimate, SeesAnInputAlsoWithAStageAtTheStart) {
   for (const char* method : {"radau_iia_3", "gauss_3", "radau_ia_3", "lobatto_iiic_3", "lobatto_iiid_3"}) {
-    OneStep step(Input{}, State<double>(Input{}.sizes()), method, 0.3);
-    EXPECT_GT(step.error() * 1e-12, std::abs(step.end().x[0] - std::sin(6.0) / 20)) << method;
+    EstimatedStep step(Input{}, State<double>(Input{}.sizes()), method, 0.3);
+    EXPECT_GT(step.error() * 1e-12, std::abs(step.to.x[0] - std::sin(6.0) / 20)) << method;
   }
 }
 

@@ -4,32 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "irk/error_bar.h"
-#include "tests/core/support.h"
+#include "tests/core/error_bar_run.h"
 
 namespace irk::test {
 namespace {
-
-struct SmallRun {
-  Solution<double> first, second;
-  ErrorBar bar;
-  std::int64_t steps = 0;  // of all integrations that measure
-};
-
-template <class P>
-SmallRun measuredSmall(const P& problem, const State<double>& start, double t_end, const IntegratorOptions& options) {
-  const auto system = makeSystem<double>(problem, {});
-  Integrator<double> one(system, makeTableau<double>("radau_iia_3"), options);
-  Integrator<double> other(system, makeMethods<double>("lobatto_iiic", 13, 4), independentOptions<double>(options));
-  SmallRun run;
-  run.first = one.integrate(start, t_end);
-  EXPECT_EQ(run.first.outcome, Outcome::kSuccess) << run.first.detail;
-  Monitor<double> monitor;
-  monitor.accepted = [&](const StepRecord<double>&) { ++run.steps; };
-  run.bar = measureErrorBar(run.first.state, other, start, options.tolerances, {}, run.second, monitor);
-  EXPECT_TRUE(run.bar.known()) << run.bar.problem;
-  return run;
-}
 
 void expectCovered(const Vec<double>& bars, const Vec<double>& result, const Vec<double>& exact, double tol) {
   for (Index i = 0; i < exact.size(); ++i) {
@@ -68,7 +46,7 @@ TEST(ErrorBarOfSmallComponents, CoversWhatComesBackFromFarBelowTheTolerance) {
       for (const double tol : {1e-3, 1e-5, 1e-8}) {
         IntegratorOptions options = embedded(tol);
         options.tolerances.norm = norm;
-        const SmallRun run = measuredSmall(problem, start, t_end, options);
+        const MeasuredRun run = measuredRun(problem, start, t_end, options);
         expectCovered(run.bar.x, run.first.state.x, problem.exact(r0, t_end), tol);
         // What the bar is for: without a doubt of a result that is wrong.
         if (tol == 1e-3) {
@@ -94,7 +72,7 @@ TEST(ErrorBarOfSmallComponents, CoversAnUnstableEquilibriumInSecondOrderForm) {
   start.u[0] = 1e-9;  // and u' = 0: one of the components begins with zero
   const double t_end = 2.1, turns = 10 * t_end;
   for (const double tol : {1e-3, 1e-4}) {
-    const SmallRun run = measuredSmall(problem, start, t_end, embedded(tol));
+    const MeasuredRun run = measuredRun(problem, start, t_end, embedded(tol));
     expectCovered(run.bar.u, run.first.state.u, Vec<double>{{1e-9 * std::cosh(turns)}}, tol);
     expectCovered(run.bar.v, run.first.state.v, Vec<double>{{1e-8 * std::sinh(turns)}}, 10 * tol);
     EXPECT_GT(run.bar.tolerances, 100);
@@ -115,7 +93,7 @@ struct FastAndSmall {
 TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
   State<double> start(FastAndSmall{}.sizes());
   start.x[0] = 1e-14;
-  const SmallRun run = measuredSmall(FastAndSmall{}, start, 1, embedded(1e-3));
+  const MeasuredRun run = measuredRun(FastAndSmall{}, start, 1, embedded(1e-3));
   EXPECT_LT(run.bar.tolerances, 1);
   EXPECT_GT(run.steps, 5000);
   EXPECT_LT(run.steps, 20000 + 1000);  // constants.h: 20 000 / unknowns
@@ -139,7 +117,7 @@ TEST(ErrorBarOfSmallComponents, TheRemarkNamesTheOneThatStaysSmall) {
   State<double> start(OscillatorBesideFastAndSmall{}.sizes());
   start.u[0] = 1;
   start.x[0] = 1e-14;
-  const SmallRun run = measuredSmall(OscillatorBesideFastAndSmall{}, start, 1, embedded(1e-3));
+  const MeasuredRun run = measuredRun(OscillatorBesideFastAndSmall{}, start, 1, embedded(1e-3));
   EXPECT_NE(run.bar.remark.find("what comes of x[0], below"), std::string::npos) << run.bar.remark;
 }
 
@@ -165,8 +143,7 @@ TEST(ErrorBarOfSmallComponents, LeavesTheWeightsAfterAnException) {
   start.x << 1e-9, 1e-9;
   result.t = 6;
   const IntegratorOptions options = embedded(1e-4);
-  Integrator<double> second(makeSystem<double>(problem, {}), makeMethods<double>("lobatto_iiic", 13, 4),
-                            independentOptions<double>(options));
+  auto second = secondOf(makeSystem<double>(problem), options);
   const std::int64_t before = second.integrate(start, 6).counters.steps_accepted;
   Monitor<double> monitor;
   int steps = 0;
@@ -185,17 +162,9 @@ TEST(ErrorBarOfSmallComponents, HoldsInFormulationsWithoutMultipliers) {
   State<double> start(problem.sizes());
   start.u << 1, 0;
   start.x[0] = 1e-9;
-  const IntegratorOptions options = embedded(1e-4);
   for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kGgl}) {
-    const auto system = makeSystem<double>(problem, {formulation});
-    Integrator<double> one(system, makeTableau<double>("radau_iia_3"), options);
-    Integrator<double> other(system, makeMethods<double>("lobatto_iiic", 13, 4), independentOptions<double>(options));
-    const Solution<double> first = one.integrate(start, 2);
-    ASSERT_EQ(first.outcome, Outcome::kSuccess) << first.detail;
-    Solution<double> second;
-    const ErrorBar bar = measureErrorBar(first.state, other, start, options.tolerances, {}, second);
-    ASSERT_TRUE(bar.known()) << bar.problem;
-    expectCovered(bar.x, first.state.x, Vec<double>{{1e-9 * std::exp(20.0)}}, 1e-4);
+    const MeasuredRun run = measuredRun(problem, start, 2, embedded(1e-4), formulation);
+    expectCovered(run.bar.x, run.first.state.x, Vec<double>{{1e-9 * std::exp(20.0)}}, 1e-4);
   }
 }
 
@@ -204,7 +173,7 @@ TEST(ErrorBarOfSmallComponents, DoesNotTakeZerosForSmallComponents) {
   const SlowPassage oscillator{-1e-12, 3};  // its growth is t: integrate over a short time
   State<double> start(oscillator.sizes());
   start.x[0] = 1;
-  const SmallRun run = measuredSmall(oscillator, start, 1.5, embedded(1e-4));
+  const MeasuredRun run = measuredRun(oscillator, start, 1.5, embedded(1e-4));
   EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
 }
 

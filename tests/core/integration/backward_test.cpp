@@ -4,10 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "irk/error_bar.h"
-#include "irk/integrator.h"
-#include "irk/tableaus.h"
-#include "tests/core/support.h"
+#include "tests/core/error_bar_run.h"
 #include "tests/refusal.h"
 
 namespace irk::test {
@@ -48,17 +45,15 @@ TEST(Backward, HasTheOrderOfTheMethod) {
   State<double> start(Riccati{}.sizes());
   start.t = 2;
   start.x[0] = phi(2);
-  std::vector<double> h, error;
-  for (const int n : {32, 64, 128}) {
-    const auto solution =
-        integrate<double>(Riccati{}, start, 1, makeTableau<double>("radau_iia_3"), fixedSteps(1.0 / n));
-    ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  const auto errorOf = [&](double h) {
+    const auto solution = integrate<double>(Riccati{}, start, 1, makeTableau<double>("radau_iia_3"), fixedSteps(h));
+    EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
     EXPECT_EQ(solution.state.t, 1);
-    h.push_back(1.0 / n);
-    error.push_back(std::abs(solution.state.x[0] - phi(1)));
-  }
-  EXPECT_GT(error.back(), 1e-12);
-  EXPECT_NEAR(slope(h, error), 5, 0.2);
+    const double error = std::abs(solution.state.x[0] - phi(1));
+    EXPECT_GT(error, 1e-12);
+    return error;
+  };
+  EXPECT_NEAR(orderOf({1.0 / 32, 1.0 / 64, 1.0 / 128}, errorOf), 5, 0.2);
 }
 
 // There and back again. The tolerance is 1e-10; friction magnifies errors backward by e^0.6.
@@ -162,23 +157,11 @@ TEST(Backward, TheErrorBarIsTheError) {
   State<double> start(Riccati{}.sizes());
   start.t = 2;
   start.x[0] = 1.5 + std::sin(2.0);
-  const auto system = makeSystem<double>(Riccati{});
-  const IntegratorOptions options = adaptive(1e-6);
-  Integrator<double> integrator(system, makeTableau<double>("radau_iia_5"), options);
-  const auto solution = integrator.integrate(start, 0.5);
-  ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
-  const double error = std::abs(solution.state.x[0] - (1.5 + std::sin(0.5)));
-  Integrator<double> second(system, makeTableau<double>("lobatto_iiic_6"), [&] {
-    IntegratorOptions o = independentOptions<double>(options);
-    o.order = OrderControl::kFixed;
-    return o;
-  }());
-  Solution<double> other;
-  const ErrorBar bar = measureErrorBar(solution.state, second, start, options.tolerances, {}, other);
-  ASSERT_TRUE(bar.known()) << bar.problem;
-  EXPECT_EQ(other.state.t, 0.5);
-  EXPECT_GT(bar.x[0], error / 3);
-  EXPECT_LT(bar.x[0], error * 3);
+  const MeasuredRun run = measuredRun(Riccati{}, start, 0.5, adaptive(1e-6));
+  const double error = std::abs(run.first.state.x[0] - (1.5 + std::sin(0.5)));
+  EXPECT_EQ(run.second.state.t, 0.5);
+  EXPECT_GT(run.bar.x[0], error / 3);
+  EXPECT_LT(run.bar.x[0], error * 3);
 }
 
 /// x' = 0 with a mode, and a jump that the members say.

@@ -44,12 +44,8 @@ TEST(FixedSteps, ShowTheOrderOfTheSchemeWithEveryNewton) {
   };
   const Vec<double> exact = end(NewtonKind::kSimplified, 1.0 / 64);
   for (const auto newton : {NewtonKind::kSimplified, NewtonKind::kModified, NewtonKind::kFull}) {
-    std::vector<double> steps, errors;
-    for (const double h : {1.0 / 2, 1.0 / 4, 1.0 / 8}) {
-      steps.push_back(h);
-      errors.push_back((end(newton, h) - exact).norm());
-    }
-    EXPECT_NEAR(slope(steps, errors), 8, 0.5) << idOf(newton);
+    const auto errorOf = [&](double h) { return (end(newton, h) - exact).norm(); };
+    EXPECT_NEAR(orderOf({1.0 / 2, 1.0 / 4, 1.0 / 8}, errorOf), 8, 0.5) << idOf(newton);
   }
 }
 

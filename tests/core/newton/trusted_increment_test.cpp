@@ -3,9 +3,7 @@
 
 #include <cmath>
 
-#include "core/steps/stepper.h"
-#include "irk/problem_system.h"
-#include "tests/core/support.h"
+#include "tests/core/one_step.h"
 
 namespace irk::test {
 namespace {
@@ -33,18 +31,8 @@ struct Corner {
 
 // One step of the implicit Euler method. The root's z is -3.25.
 TEST(TrustedIncrement, ATinyContractionAfterAHugeIncrementDoesNotCount) {
-  const auto system = makeSystem<double>(Corner{});
-  const Scheme<double> scheme(makeTableau<double>("radau_iia_1"));
-  const IntegratorOptions options = adaptive(Corner::kTolerance);
-  Counters counters;
-  ErrorNorm<double> norm(*system, {0, Corner::kTolerance, NormKind::kAbsolute}, {});
-  SharedJacobian<double> jacobian(*system, scheme, options, counters);
-  Stepper<double> stepper(*system, scheme, options, jacobian, norm, counters);
-  const State<double> start(system->sizes());
-  State<double> end(system->sizes());
-  norm.update(start);
-  const auto result = stepper.attempt(stepper.stages(), start, 1, end);
-  EXPECT_EQ(result.outcome, Outcome::kNewtonFailed) << end.z()[0];
+  OneStep step(Corner{}, "radau_iia_1", adaptive(Corner::kTolerance), {0, Corner::kTolerance, NormKind::kAbsolute});
+  EXPECT_EQ(step.solve(State<double>(Corner{}.sizes()), 1), Outcome::kNewtonFailed) << step.to.z()[0];
 }
 
 }  // namespace
