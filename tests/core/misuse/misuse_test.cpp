@@ -1,6 +1,7 @@
 // What Integrator is given and cannot work with: tableaus, methods, options, systems, error bars.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -198,9 +199,12 @@ std::function<void()> with(Change change) {
     monitor.inside = true;
     monitor.accepted = [](const StepRecord<double>& step) { (void)step.inside->at(step.t - step.h / 2); };
     monitor.located = [](const LocatedSwitch<double>&) {};
-    const auto s = integrator.integrate(State<double>(WrongSystem{}.n), 1.0, monitor);
+    State<double> start(WrongSystem::kRight);
+    start.x[0] = 1;
+    const auto s = integrator.integrate(start, 1.0, monitor);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_EQ(s.counters.switches, 1);
+    EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-3);
   };
 }
 
@@ -209,6 +213,8 @@ TEST(Misuse, SystemsMadeByHandAreChecked) {
   using Changed = State<double>;
   EXPECT_EQ(refusal(with([](S&) {})), "");
   expectRefusals({
+      {"no unknowns", "at least one unknown", with([](S& s) { s.n = {}; })},
+      {"nz", "nz = -1", with([](S& s) { s.n.nz = -1; })},
       {"powers of rows", "powers of the rows: 1 numbers, 2 are expected", with([](S& s) { s.rows = {0}; })},
       {"a negative power", "rows: number 1 (from 0 on) = -1: 0, 1 or 2", with([](S& s) {
          s.rows = {0, -1};
