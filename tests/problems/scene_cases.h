@@ -2,8 +2,11 @@
 // the residual as a function of that vector.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
@@ -149,13 +152,34 @@ Mat<Real> automaticJacobian(const System<Real>& system, Level level, const Real&
   return J;
 }
 
-/// Not a number if the scene has no such output.
+/// The value of a component or an output by its name; NaN if there is none.
 template <class Real>
-Real outputOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+Real valueOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
+  Vec<Real> y(scene.sizes().components());
+  y << s.u, s.v, s.x, s.z();
+  for (std::size_t i = 0; i < scene.names.size(); ++i) {
+    if (scene.names[i] == name) return y[static_cast<Index>(i)];
+  }
   for (const auto& output : scene.outputs) {
     if (output.name == name) return output.value(s);
   }
   return std::numeric_limits<Real>::quiet_NaN();
+}
+
+/// Whether a component or an output has this name.
+inline bool hasValue(const Scene<double>& scene, const std::string& name) {
+  return std::ranges::count(scene.names, name) > 0 ||
+         std::ranges::any_of(scene.outputs, [&](const auto& output) { return output.name == name; });
+}
+
+/// The state has the value of the reference, up to `share` of the component's magnitude (of an output: 1) or of the
+/// value, whichever is larger, and up to the reference's own accuracy.
+inline void expectReference(const Scene<double>& scene, const State<double>& s, const Reference& r, double share) {
+  const auto at = std::find(scene.names.begin(), scene.names.end(), r.component) - scene.names.begin();
+  const double scale = at < scene.scale.size() ? scene.scale[at] : 1;
+  const double wanted = std::strtod(r.value.c_str(), nullptr);
+  EXPECT_NEAR(valueOf(scene, r.component, s), wanted, share * std::max(scale, std::abs(wanted)) + r.accuracy)
+      << r.component << " at " << r.t;
 }
 
 /// The sum of the magnitudes of the terms in each row, which limits its round-off.

@@ -134,54 +134,6 @@ TEST(Catalogue, RatesHaveUnits) {
   EXPECT_EQ(unitOf("kepler", "q1'"), "");
 }
 
-TEST(Catalogue, NamesTheNearestScene) {
-  const std::string message = refusal([] { makeScene<double>("slidercrank"); });
-  EXPECT_NE(message.find("did you mean 'slider_crank'"), std::string::npos) << message;
-}
-
-TEST(Catalogue, NamesTheNearestParameter) {
-  const std::string message = refusal([] { makeScene<double>("slider_crank", {{"coordinate", "minimal"}}); });
-  EXPECT_NE(message.find("did you mean 'coordinates'"), std::string::npos) << message;
-  EXPECT_NE(refusal([] { makeScene<double>("hires", {{"k", "1"}}); }).find("no parameters"), std::string::npos);
-}
-
-TEST(Catalogue, RefusesValuesOutOfRange) {
-  const std::string message = refusal([] { makeScene<BigFloat>("kepler", {{"e", "1.5"}}); });
-  EXPECT_NE(message.find("e = '1.5'"), std::string::npos) << message;
-  EXPECT_NE(message.find("[0, 0.99]"), std::string::npos) << message;
-}
-
-TEST(Catalogue, RefusesWhatIsNoNumber) {
-  for (const char* text : {"", "one", "1x", "nan", "inf"}) {
-    EXPECT_NE(refusal([&] { makeScene<double>("stick_slip", {{"k", text}}); }), "") << text;
-  }
-  EXPECT_NE(refusal([] { makeScene<double>("ancf_pendulum", {{"elements", "2.5"}}); }), "");
-}
-
-TEST(Catalogue, RefusesUnknownWords) {
-  const std::string message = refusal([] { makeScene<double>("hydraulic_arm", {{"reference", "smoth"}}); });
-  EXPECT_NE(message.find("did you mean 'smooth'"), std::string::npos) << message;
-}
-
-// An empty function would be called and throw std::bad_function_call.
-TEST(Catalogue, RefusesScalarsThatASceneDoesNotOffer) {
-  SceneEntry entry = findScene("kepler");
-  EXPECT_NO_THROW(makeScene<BigFloat>(entry, {}));
-  entry.id = "mine";
-  entry.make_big_float = {};
-  const std::string message = refusal([&] { makeScene<BigFloat>(entry, {}); });
-  EXPECT_EQ(message.find("scalar = 'mp50': scene mine offers double; with mp50: "), 0U) << message;
-  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }), "");
-  entry.make = {};
-  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }).find("scalar = 'double': scene mine offers none"), 0U);
-  entry.make = [](const Settings&) {
-    auto scene = makeScene<double>("kepler");
-    scene.system = {};
-    return scene;
-  };
-  EXPECT_EQ(refusal([&] { makeScene<double>(entry, {}); }), "scene mine makes no system");
-}
-
 TEST(Catalogue, DefaultsAreAllowedValues) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     for (const Parameter& p : entry.parameters) {

@@ -3,11 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "irk/scene.h"
-#include "irk/system_check.h"
-#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -18,6 +15,7 @@ TEST(Collections, EverySceneBelongsToOne) {
     EXPECT_TRUE(std::is_sorted(entry.collections.begin(), entry.collections.end())) << entry.id;
     EXPECT_EQ(collectionsOf(entry.id), entry.collections);
   }
+  EXPECT_TRUE(collectionsOf("no_scene").empty());
   EXPECT_EQ(collections(), (std::vector<std::string>{"foreign", "ivp", "multibody", "probes", "switching"}));
 }
 
@@ -50,12 +48,6 @@ TEST(Collections, ScenesWithSwitchesAreTogether) {
   }
 }
 
-TEST(Collections, NameTheNearest) {
-  const auto message = refusal([] { scenesOf("ipv"); });
-  EXPECT_NE(message.find("'ivp'"), std::string::npos) << message;
-  EXPECT_TRUE(collectionsOf("no_scene").empty());
-}
-
 // The scenes of the test set name it, and their index is that of their equations.
 TEST(Collections, ScenesSayWhereTheyAreDescribed) {
   for (const std::string& id : scenesOf("ivp")) EXPECT_FALSE(findScene(id).literature.empty()) << id;
@@ -66,44 +58,6 @@ TEST(Collections, ScenesSayWhereTheyAreDescribed) {
   EXPECT_EQ(index("pump"), 2);
   EXPECT_EQ(index("index3_nonlinear"), 3);
   EXPECT_EQ(index("andrews"), 3);
-}
-
-TEST(Collections, RefuseNamesThatCannotBeWritten) {
-  SceneEntry entry = findScene("kepler");
-  entry.id = "not_registered";
-  entry.collections = {"mine", "My scenes"};
-  EXPECT_NE(refusal([&] { registerScene(entry); }).find("collection 'My scenes'"), std::string::npos);
-  entry.collections = {};
-  entry.parameters.push_back(entry.parameters.front());
-  EXPECT_NE(refusal([&] { registerScene(entry); }).find("two parameters are called 'e'"), std::string::npos);
-}
-
-TEST(Scenes, ComponentsHaveNamesAndMagnitudes) {
-  const auto refused = [](const auto& change) {
-    SceneEntry entry = findScene("kepler");
-    entry.make = [&, make = entry.make](const Settings& settings) {
-      Scene<double> scene = make(settings);
-      change(scene);
-      return scene;
-    };
-    return refusal([&] { static_cast<void>(makeScene<double>(entry, {})); });
-  };
-  EXPECT_EQ(refused([](auto&) {}), "");
-  EXPECT_EQ(refused([](auto& scene) { scene.names[1] = scene.names[0]; }),
-            "scene kepler: two components are called 'q1'");
-  EXPECT_NE(refused([](auto& scene) { scene.names[1] = "q 2"; }).find("component 1 is called 'q 2'"),
-            std::string::npos);
-  EXPECT_NE(refused([](auto& scene) { scene.names[1] = ""; }).find("component 1 is called ''"), std::string::npos);
-  for (const double size : {0.0, -1.0, std::nan("")}) {
-    const std::string text =
-        refused([size](auto& scene) { scene.scale.setConstant(static_cast<Index>(scene.names.size()), size); });
-    EXPECT_NE(text.find("scene kepler: the typical magnitude of q1 is"), std::string::npos) << text;
-  }
-}
-
-TEST(Scenes, SizesThatNoMemoryHoldsAreRefused) {
-  const std::string text = refusal([] { requireSizes({.nu = 2'000'000'000}, {}); });
-  EXPECT_NE(text.find("nu = 2000000000: 0 to 10000000"), std::string::npos) << text;
 }
 
 }  // namespace

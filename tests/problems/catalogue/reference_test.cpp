@@ -18,20 +18,6 @@
 namespace irk::test {
 namespace {
 
-// Values of the components, then of the outputs.
-template <class Real>
-Real valueOf(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
-  Vec<Real> y(scene.sizes().components());
-  y << s.u, s.v, s.x, s.z();
-  for (std::size_t i = 0; i < scene.names.size(); ++i) {
-    if (scene.names[i] == name) return y[static_cast<Index>(i)];
-  }
-  for (const auto& output : scene.outputs) {
-    if (output.name == name) return output.value(s);
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
 TEST(Reference, BelongsToAComponentOrOutput) {
   for (const SceneEntry& entry : sceneCatalogue()) {
     const auto scene = makeScene<double>(entry.id);

@@ -6,6 +6,7 @@
 
 #include "irk/collections.h"
 #include "irk/scene_file.h"
+#include "irk/system_check.h"
 #include "tests/misuse_table.h"
 
 namespace irk::test {
@@ -64,10 +65,13 @@ TEST(SceneMisuse, PartsThatDoNotFitAreRefused) {
       {"an end before the start", "t_end = -1 lies before the start, t = 0", scene([](Made& s) { s.t_end = -1; })},
       {"scale", "scale: 2 numbers, 3 are expected", scene([](Made& s) { s.scale.setOnes(2); })},
       {"a scale", "the typical magnitude of u is 0", scene([](Made& s) { s.scale[0] = 0; })},
+      {"a negative scale", "scene pair: the typical magnitude of u is -1", scene([](Made& s) { s.scale[0] = -1; })},
+      {"no scale", "scene pair: the typical magnitude of u is nan", scene([](Made& s) { s.scale[0] = kNoNumber; })},
       {"a scale, unnamed", "scale[1] = nan", scene([](Made& s) { s.names = {}, s.scale[1] = kNoNumber; })},
       {"units", "scene pair: 1 units, but it has 3 components", scene([](Made& s) { s.units = {"m"}; })},
       {"one name", "scene pair names 1 components, but it has 3", scene([](Made& s) { s.names = {"u"}; })},
       {"names", "two components are called 'u'", scene([](Made& s) { s.names[2] = "u"; })},
+      {"no name", "component 1 is called ''", scene([](Made& s) { s.names[1] = ""; })},
       {"a name", "component 1 is called 'a b'", scene([](Made& s) { s.names[1] = "a b"; })},
       {"exact", "scene pair: exact: u: 0 numbers, 1",
        scene([](Made& s) { s.exact = [](const double&) { return State<double>(); }; })},
@@ -96,7 +100,12 @@ std::function<void()> registered(Change change) {
   };
 }
 
-TEST(SceneMisuse, EntriesAreChecked) {
+// A scene of the catalogue with one setting.
+std::function<void()> with(const char* id, const char* name, const char* value) {
+  return [=] { (void)makeScene<double>(id, {{name, value}}); };
+}
+
+TEST(SceneMisuse, EntriesAndSettingsAreChecked) {
   using E = SceneEntry;
   expectRefusals({
       {"no id", "scene id ''", registered([](E& e) { e.id = ""; })},
@@ -114,10 +123,32 @@ TEST(SceneMisuse, EntriesAreChecked) {
       {"descriptions", "parameter w has no words", [] { (void)descriptionParameter("w", "", {}); }},
       {"no scalar", "scalar = 'mp50': scene pair offers double",
        [] { (void)makeScene<BigFloat>(entryWith([](Made&) {}), {}); }},
+      {"no scalar at all", "scalar = 'double': scene pair offers none",
+       [] {
+         SceneEntry entry = entryWith([](Made&) {});
+         entry.make = {};
+         (void)makeScene<double>(entry, {});
+       }},
       {"no parameters", "scene pair has no parameters, not 'k'",
        [] {
          (void)makeScene<double>(entryWith([](Made&) {}), {{"k", "1"}});
        }},
+      {"a parameter", "scene slider_crank: unknown parameter 'coordinate'; did you mean 'coordinates'?",
+       with("slider_crank", "coordinate", "minimal")},
+      {"a word", "unknown value of parameter reference 'smoth'; did you mean 'smooth'?",
+       with("hydraulic_arm", "reference", "smoth")},
+      {"a number", "scene kepler: parameter e = '1.5' must be a number in [0, 0.99]", with("kepler", "e", "1.5")},
+      {"in 50 digits", "parameter e = '1.5' must be a number in [0, 0.99]",
+       [] {
+         (void)makeScene<BigFloat>("kepler", {{"e", "1.5"}});
+       }},
+      {"an empty number", "parameter k = '' must be a number", with("stick_slip", "k", "")},
+      {"a word for a number", "parameter k = 'one' must be a number", with("stick_slip", "k", "one")},
+      {"a number and more", "parameter k = '1x' must be a number", with("stick_slip", "k", "1x")},
+      {"not a number", "parameter k = 'nan' must be a number", with("stick_slip", "k", "nan")},
+      {"an infinite number", "parameter k = 'inf' must be a number", with("stick_slip", "k", "inf")},
+      {"a part of an element", "elements = '2.5' must be a whole number", with("ancf_pendulum", "elements", "2.5")},
+      {"sizes that no memory holds", "nu = 2000000000: 0 to 10000000", [] { requireSizes({.nu = 2'000'000'000}, {}); }},
       {"a scene", "unknown scene 'keplr'; did you mean 'kepler'?", [] { (void)makeScene<double>("keplr"); }},
       {"no scene", "unknown scene ''", [] { (void)findScene(""); }},
       {"references", "unknown scene 'keplr'", [] { (void)references("keplr"); }},

@@ -22,8 +22,8 @@ Course courseOf(const Settings& settings) {
   Course course;
   Monitor<double> monitor;
   monitor.accepted = [&](const StepRecord<double>& step) {
-    course.energy.push_back(outputOf(scene, "energy", step.state));
-    course.force.push_back(outputOf(scene, "N", step.state));
+    course.energy.push_back(valueOf(scene, "energy", step.state));
+    course.force.push_back(valueOf(scene, "N", step.state));
   };
   monitor.switched = [&](const SwitchRecord<double>& s) { course.switches.push_back(s.name); };
   IntegratorOptions options;
@@ -79,7 +79,7 @@ TEST(AncfStop, RestsOnTheStopInEquilibrium) {
   const double le = 0.5;
   const double area =
       le / 2 * u[2] + le * le / 12 * (u[0] - u[4]) + le / 2 * (u[2] + u[6]) + le * le / 12 * (u[4] - u[8]);
-  const double force = outputOf(scene, "N", rest.state);
+  const double force = valueOf(scene, "N", rest.state);
   EXPECT_NEAR(force * u[6], kWeight * area, 1e-9 * kWeight);
   EXPECT_NEAR(force, 1e5 * (-0.3 - u[7]), 1e-9 * kWeight);
   EXPECT_GT(force, kWeight / 3);

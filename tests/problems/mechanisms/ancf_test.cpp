@@ -38,8 +38,8 @@ TEST(Ancf, StaticCantileverHasTheCheckedDeflection) {
     const auto scene = makeScene<double>("ancf_cantilever", {{"elements", elements}});
     // Round-off: eps times the ratio of axial to bending stiffness, EA L^2 / EI = 5e3, per node.
     const double tolerance = tip.accuracy + 1e-11;
-    EXPECT_NEAR(outputOf(scene, "u_x", bent.state), tip.u_x, tolerance);
-    EXPECT_NEAR(outputOf(scene, "u_y", bent.state), tip.u_y, tolerance);
+    EXPECT_NEAR(valueOf(scene, "u_x", bent.state), tip.u_x, tolerance);
+    EXPECT_NEAR(valueOf(scene, "u_y", bent.state), tip.u_y, tolerance);
   }
 }
 
@@ -52,7 +52,7 @@ TEST(Ancf, StaticCantileverConvergesToTheElastica) {
     const auto bent = bentCantilever<double>(elements);
     ASSERT_EQ(bent.outcome, Outcome::kSuccess);
     const auto scene = makeScene<double>("ancf_cantilever", {{"elements", elements}});
-    const double error = std::abs(outputOf(scene, "u_y", bent.state) - exact);
+    const double error = std::abs(valueOf(scene, "u_y", bent.state) - exact);
     if (last > 0) {
       EXPECT_LT(error, last / 8) << elements;
     }
@@ -87,7 +87,7 @@ TEST(Ancf, ForcesAreTheGradientOfTheEnergy) {
       State<BigFloat> above = s, below = s;
       above.u[i] += delta;
       below.u[i] -= delta;
-      const BigFloat slope = (outputOf(scene, "energy", above) - outputOf(scene, "energy", below)) / (2 * delta);
+      const BigFloat slope = (valueOf(scene, "energy", above) - valueOf(scene, "energy", below)) / (2 * delta);
       // Central differences have the error delta^2 times the ratio of third to first derivative, below 1e5 here.
       EXPECT_LT(abs(r[i] + slope), size * 1e-25) << id << " " << i;
     }
@@ -107,7 +107,7 @@ TEST(Ancf, KineticEnergyBelongsToTheMassMatrix) {
   const auto zero = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, 0, pointVector(rest));
   const auto r = residualAt<BigFloat, BigFloat>(*system, Level::kFormulated, 0, pointVector(s));
   const BigFloat kinetic = s.v.dot(zero - r) / 2;
-  const BigFloat energy = outputOf(scene, "energy", s) - outputOf(scene, "energy", rest);
+  const BigFloat energy = valueOf(scene, "energy", s) - valueOf(scene, "energy", rest);
   EXPECT_LT(abs(kinetic - energy), abs(energy) * 1e-45);
 }
 

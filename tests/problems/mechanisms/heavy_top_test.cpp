@@ -21,8 +21,8 @@ TEST(HeavyTop, FollowsEllipticFunctionsToTwentyFiveDigits) {
     scene.start = scene.exact(BigFloat("0.365"));
     const auto s = stateAfter<BigFloat>(scene, t, 1e-27, 14);
     for (const std::string& name : scene.names) {
-      const auto wanted = valueByName(scene, name, exact);
-      EXPECT_LT(abs(valueByName(scene, name, s) - wanted), BigFloat("1e-25") * (1 + abs(wanted))) << name;
+      const auto wanted = valueOf(scene, name, exact);
+      EXPECT_LT(abs(valueOf(scene, name, s) - wanted), BigFloat("1e-25") * (1 + abs(wanted))) << name;
     }
   }
 }
@@ -39,8 +39,8 @@ TEST(HeavyTop, FollowsEllipticFunctionsInOtherMotions) {
       const auto s = stateAfter<double>(scene, scene.t_end, 1e-11, 7);
       const auto exact = scene.exact(scene.t_end);
       for (const std::string& name : scene.names) {
-        const double wanted = valueByName(scene, name, exact);
-        EXPECT_NEAR(valueByName(scene, name, s), wanted, 1e-7 * (1 + std::abs(wanted))) << name;
+        const double wanted = valueOf(scene, name, exact);
+        EXPECT_NEAR(valueOf(scene, name, s), wanted, 1e-7 * (1 + std::abs(wanted))) << name;
       }
     }
   }
@@ -54,9 +54,9 @@ TEST(HeavyTop, PrecessesRegularly) {
         makeScene<double>("heavy_top", {{"coordinates", coordinates}, {"spin", "100"}, {"precession", "3.1392"}});
     ASSERT_NEAR(rate, 3.1392, 1e-13);
     const auto s = stateAfter<double>(scene, 1.0, 1e-10, 5);
-    EXPECT_NEAR(valueByName(scene, "z", s), 0, 1e-8);
-    EXPECT_NEAR(valueByName(scene, "x", s), -std::sin(rate), 1e-8);
-    EXPECT_NEAR(valueByName(scene, "y", s), std::cos(rate), 1e-8);
+    EXPECT_NEAR(valueOf(scene, "z", s), 0, 1e-8);
+    EXPECT_NEAR(valueOf(scene, "x", s), -std::sin(rate), 1e-8);
+    EXPECT_NEAR(valueOf(scene, "y", s), std::cos(rate), 1e-8);
   }
 }
 
@@ -95,7 +95,7 @@ TEST(HeavyTop, KeepsTightTolerancesInFirstOrderForm) {
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     ASSERT_EQ(s.state.t, scene.t_end);
     for (const char* name : {"x", "y", "z", "e0", "e1", "e2", "e3"}) {
-      EXPECT_NEAR(valueByName(scene, name, s.state), valueByName(scene, name, exact), 1e-9) << name;
+      EXPECT_NEAR(valueOf(scene, name, s.state), valueOf(scene, name, exact), 1e-9) << name;
     }
   }
 }

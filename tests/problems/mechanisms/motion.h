@@ -12,20 +12,6 @@
 
 namespace irk::test {
 
-/// The value of a component or an output by its name; NaN if there is none.
-template <class Real>
-Real valueByName(const Scene<Real>& scene, const std::string& name, const State<Real>& s) {
-  Vec<Real> y(scene.sizes().components());
-  y << s.u, s.v, s.x, s.z();
-  for (std::size_t i = 0; i < scene.names.size(); ++i) {
-    if (scene.names[i] == name) return y[static_cast<Index>(i)];
-  }
-  for (const auto& output : scene.outputs) {
-    if (output.name == name) return output.value(s);
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 /// The integration to t_end, with radau_iia of `stages`.
 template <class Real>
 Solution<Real> integrated(const Scene<Real>& scene, const Real& t_end, double tolerance, int stages,

@@ -19,7 +19,7 @@ TEST(SlidingMass, JointAndInsertedMassAgreeToFourteenDigits) {
   EXPECT_EQ(a.d[0], 1);
   EXPECT_EQ(b.d[0], 1);
   for (const char* name : {"s", "s'", "x", "y", "x'", "y'", "tip_x", "tip_y", "tip_x'", "tip_y'", "s1_y'", "energy"}) {
-    EXPECT_LT(abs(valueByName(joint, name, a) - valueByName(inserted, name, b)), BigFloat("1e-14")) << name;
+    EXPECT_LT(abs(valueOf(joint, name, a) - valueOf(inserted, name, b)), BigFloat("1e-14")) << name;
   }
 }
 
@@ -54,7 +54,7 @@ TEST(SlidingMass, ChangesItsElementAtTheNodes) {
     for (const Event& event : r.events) {
       EXPECT_EQ(event.name, "next element");
       const auto there = run(c, event.t, Discontinuity::kLocate);
-      EXPECT_NEAR(valueByName(scene, "s", there.solution.state), node, 1e-8);
+      EXPECT_NEAR(valueOf(scene, "s", there.solution.state), node, 1e-8);
       node += 0.25;
     }
   }
@@ -63,9 +63,9 @@ TEST(SlidingMass, ChangesItsElementAtTheNodes) {
 TEST(SlidingMass, SlidesAlongAStiffBeamAtConstantSpeed) {
   const auto scene = makeScene<double>("sliding_mass", {{"E", "1e11"}, {"v0", "2"}});
   const auto s = stateAfter<double>(scene, 0.2, 1e-6, 5);
-  EXPECT_NEAR(valueByName(scene, "s", s), 0.7, 1e-4);
-  EXPECT_NEAR(valueByName(scene, "s'", s), 2, 1e-3);
-  EXPECT_NEAR(valueByName(scene, "y", s), 0, 1e-4);
+  EXPECT_NEAR(valueOf(scene, "s", s), 0.7, 1e-4);
+  EXPECT_NEAR(valueOf(scene, "s'", s), 2, 1e-3);
+  EXPECT_NEAR(valueOf(scene, "y", s), 0, 1e-4);
 }
 
 // A mass that is thrown back crosses the node the other way.

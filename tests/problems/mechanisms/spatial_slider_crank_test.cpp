@@ -50,7 +50,7 @@ TEST(SpatialSliderCrank, ItsCoordinatesAgreeOverTheWholeTime) {
     const auto scene = makeScene<double>("spatial_slider_crank", {{"coordinates", coordinates}});
     const auto s = stateAfter<double>(scene, 2.0, 1e-13, 7);
     for (const char* name : {"theta", "theta'", "s", "s'"}) {
-      EXPECT_NEAR(valueByName(scene, name, s), valueByName(natural, name, all), 1e-9) << coordinates << " " << name;
+      EXPECT_NEAR(valueOf(scene, name, s), valueOf(natural, name, all), 1e-9) << coordinates << " " << name;
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(SpatialSliderCrank, KeepsItsEnergyAndConstraints) {
 TEST(SpatialSliderCrank, ItsForcesAreThoseOfNewton) {
   const auto scene = makeScene<double>("spatial_slider_crank");
   const auto s = stateAfter<double>(scene, 0.3, 1e-11, 5);
-  const auto value = [&](const char* name) { return valueByName(scene, name, s); };
+  const auto value = [&](const char* name) { return valueOf(scene, name, s); };
   const double along = value("lambda") * (value("Ax") - value("s")) / 0.3;
   EXPECT_NEAR(2 * s.w[4], along - 0.5 * s.w[4] / 3, 1e-9);  // the slider takes a third of the rod with it
   EXPECT_NEAR(1e-4 * s.w[0], 0.08 * (std::cos(s.u[0]) * value("lambda_y") - std::sin(s.u[0]) * value("lambda_z")),

@@ -136,16 +136,6 @@ TEST(Switching, SamplesAreTakenInTime) {
   EXPECT_NEAR(r.solution.state.d[0], -1.443369897505, 1e-9);  // F_9
 }
 
-double valueOf(const Scene<double>& scene, const std::string& name, const State<double>& s) {
-  for (const auto& output : scene.outputs) {
-    if (output.name == name) return output.value(s);
-  }
-  Vec<double> y(scene.sizes().components());
-  y << s.u, s.v, s.x, s.z();
-  const auto at = std::find(scene.names.begin(), scene.names.end(), name);
-  return y[at - scene.names.begin()];
-}
-
 struct EndValue {
   SceneCase scene;
   double t;

@@ -3,12 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <map>
-
 #include "irk/integrator.h"
 #include "irk/tableaus.h"
+#include "tests/problems/scene_cases.h"
 
 namespace irk::test {
 namespace {
@@ -20,19 +17,6 @@ void passTimes(const System<double>& system, State<double>& state) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] == state.t) system.onTime(static_cast<Index>(i), state);
   }
-}
-
-// Values and scales of the components and outputs by name.
-std::map<std::string, std::pair<double, double>> valuesOf(const Scene<double>& scene, const State<double>& s) {
-  Vec<double> y(scene.sizes().components());
-  y << s.u, s.v, s.x, s.z();
-  std::map<std::string, std::pair<double, double>> values;
-  for (std::size_t i = 0; i < scene.names.size(); ++i) {
-    const auto row = static_cast<Index>(i);
-    values[scene.names[i]] = {y[row], scene.scale[row]};
-  }
-  for (const auto& output : scene.outputs) values[output.name] = {output.value(s), 1};
-  return values;
 }
 
 // Local errors accumulate: at most this many tolerances at the end.
@@ -67,10 +51,7 @@ TEST_P(TestSet, ReachesTheValuesOfOtherPrograms) {
       state = solution.state;
       passTimes(*system, state);
     }
-    const auto [value, scale] = valuesOf(scene, state).at(r.component);
-    const double wanted = std::strtod(r.value.c_str(), nullptr);
-    const double size = std::max(std::abs(wanted), scale);
-    EXPECT_NEAR(value, wanted, kGrowth * c.tolerance * size + r.accuracy) << r.component << " at " << r.t;
+    expectReference(scene, state, r, kGrowth * c.tolerance);
     ++compared;
   }
   EXPECT_GE(compared, 3);
