@@ -28,15 +28,10 @@ Mat<double> differenceJacobian(const System<BigFloat>& system, Level level, cons
 // The automatic derivative adds the same terms as the residual, with a few operations each.
 constexpr double kDerivativeTolerance = 1e4 * kEps;
 
-void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<double>& d,
-                            const SystemOptions& options, Level level) {
-  const auto scene = makeScene<double>(c.id, c.settings);
-  const auto precise = makeScene<BigFloat>(c.id, c.settings);
-  const auto system = scene.system(options);
-  const auto precise_system = precise.system(options);
-  const Vec<double> scale = pointScale(scene, system->sizes());
-  const Mat<double> J = automaticJacobian<double>(*system, level, 0.0, y, d);
-  const Mat<double> D = differenceJacobian(*precise_system, level, 0, y, d, scale);
+void expectDerivativesAgree(const System<double>& system, const System<BigFloat>& precise, Level level,
+                            const Vec<double>& y, const Vec<double>& d, const Vec<double>& scale) {
+  const Mat<double> J = automaticJacobian<double>(system, level, 0.0, y, d);
+  const Mat<double> D = differenceJacobian(precise, level, 0, y, d, scale);
   const Vec<double> magnitude = y.cwiseAbs().cwiseMax(scale);
   const Vec<double> rows = J.cwiseAbs() * magnitude;
   for (Index i = 0; i < J.rows(); ++i) {
@@ -49,18 +44,22 @@ void expectDerivativesAgree(const SceneCase& c, const Vec<double>& y, const Vec<
 
 TEST(Residual, AutomaticDerivativeIsTheDifferenceQuotient) {
   for (const SceneCase& c : sceneCases()) {
+    SCOPED_TRACE(c.name());
     const auto scene = makeScene<double>(c.id, c.settings);
-    const Sizes n = scene.sizes();
+    const auto precise = makeScene<BigFloat>(c.id, c.settings);
+    const Vec<double> start = pointVector(scene.start), moved = perturbedPoint(scene, scene.sizes());
     for (const Mode& mode : modesToTest(scene)) {
       for (const Formulation formulation : kFormulations) {
+        const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
+        const auto system = scene.system(options);
+        const auto precise_system = precise.system(options);
+        const Vec<double> scale = pointScale(scene, system->sizes());
         for (const Level level : {Level::kFormulated, Level::kAcceleration}) {
-          SCOPED_TRACE(c.name());
-          const SystemOptions options{formulation, ConstraintScaling::kOn, mode.discontinuity};
           // The start may lie on a switch.
           if (mode.discontinuity != Discontinuity::kIgnore) {
-            expectDerivativesAgree(c, pointVector(scene.start), mode.d, options, level);
+            expectDerivativesAgree(*system, *precise_system, level, start, mode.d, scale);
           }
-          expectDerivativesAgree(c, perturbedPoint(scene, n), mode.d, options, level);
+          expectDerivativesAgree(*system, *precise_system, level, moved, mode.d, scale);
         }
       }
     }
