@@ -1,8 +1,6 @@
 // Tables of misuses: what is done wrong, and a part of the message that says so.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -21,7 +19,7 @@ struct WrongUse {
 inline void expectRefusals(std::initializer_list<WrongUse> uses) {
   for (const auto& [what, message, use] : uses) {
     const std::string said = refusal(use);
-    EXPECT_NE(said.find(message), std::string::npos) << what << ": '" << said << "' without '" << message << "'";
+    EXPECT_TRUE(contains(said, message)) << what;
     EXPECT_FALSE(said.empty()) << what;
   }
 }

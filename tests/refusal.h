@@ -1,7 +1,10 @@
 // What a refused call says.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
+#include <vector>
 
 #include "irk/misuse.h"
 
@@ -16,6 +19,19 @@ std::string refusal(const Action& action) {
     return misuse.what();
   }
   return "";
+}
+
+/// Whether the text contains each of the parts; a failure shows the one that is missing, and the text.
+inline testing::AssertionResult containsAll(const std::string& text, const std::vector<std::string>& parts) {
+  for (const auto& part : parts) {
+    if (text.find(part) == std::string::npos) {
+      return testing::AssertionFailure() << "no \"" << part << "\" in: " << text;
+    }
+  }
+  return testing::AssertionSuccess();
+}
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  return containsAll(text, {part});
 }
 
 }  // namespace irk

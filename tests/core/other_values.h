@@ -55,9 +55,4 @@ std::vector<std::string> otherValues(const Field<Spec>& field) {
   return values;
 }
 
-/// Whether the text contains all parts.
-inline bool containsAllOf(const std::string& text, const std::vector<std::string>& parts) {
-  return std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return text.find(part) != text.npos; });
-}
-
 }  // namespace irk

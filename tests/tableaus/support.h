@@ -14,11 +14,6 @@ namespace irk {
 
 inline std::string memberId(const std::string& family, Index s) { return fmt::format("{}_{}", family, s); }
 
-inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
-}
-
 /// The largest |x - y|.
 template <class Real>
 double largestDifference(const Mat<Real>& x, const Mat<Real>& y) {

@@ -123,16 +123,15 @@ TEST(TableauWeights, EstimateConstrainedMotions) {
   EXPECT_LT(solution.counters.steps_accepted, 1000);
 }
 
-void expectRefusal(const Tableau<double>& method, const std::string& reason) {
-  const auto message =
-      refusal([&] { Integrator<double> refused(makeSystem<double>(Riccati{}), method, withWeights(1e-6)); });
-  EXPECT_NE(message.find(reason), std::string::npos) << method.id << ": " << message;
-}
 TEST(TableauWeights, AreRefusedByNameWhereThereAreNone) {
-  expectRefusal(makeTableau<double>("radau_iia_3"), "estimate 'tableau' with method 'radau_iia_3': it has no embedded");
+  const auto refused = [](const Tableau<double>& method) {
+    return refusal([&] { Integrator<double>(makeSystem<double>(Riccati{}), method, withWeights(1e-6)); });
+  };
+  EXPECT_TRUE(contains(refused(makeTableau<double>("radau_iia_3")),
+                       "estimate 'tableau' with method 'radau_iia_3': it has no embedded"));
   Tableau<double> singular = sdirk4();
   singular.A(2, 2) = 0;
-  expectRefusal(singular, "its A is singular");
+  EXPECT_TRUE(contains(refused(singular), "its A is singular"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/core/switching_run.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -162,7 +163,7 @@ TEST(SwitchingFunction, NotFiniteIsReported) {
   for (const Discontinuity mode : {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
     const Result r = run(problem, height(problem, 1), 3, mode, adaptive(1e-6));
     EXPECT_EQ(r.solution.outcome, Outcome::kNotFinite) << idOf(mode);
-    EXPECT_NE(r.solution.detail.find("'contact'"), std::string::npos) << r.solution.detail;
+    EXPECT_TRUE(contains(r.solution.detail, "'contact'"));
   }
 }
 

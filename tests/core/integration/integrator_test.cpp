@@ -115,7 +115,7 @@ TEST(Integrator, NotANumberIsNamed) {
   const State<double> start(NotFinite{-1}.sizes());
   const auto at_once = integrate<double>(NotFinite{-1}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(at_once.outcome, Outcome::kNotFinite);
-  EXPECT_NE(at_once.detail.find("row 0"), std::string::npos) << at_once.detail;
+  EXPECT_TRUE(contains(at_once.detail, "row 0"));
   const auto later = integrate<double>(NotFinite{0.5}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(later.outcome, Outcome::kNotFinite) << later.detail;
   EXPECT_NEAR(later.state.t, 0.5, 1e-3);
@@ -126,12 +126,12 @@ TEST(Integrator, AnInconsistentStartIsNamed) {
   off.u[0] = 1.01;
   auto s = integrate<double>(CartesianPendulum{}, off, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
-  EXPECT_NE(s.detail.find("constraint g[0] = 0.01"), std::string::npos) << s.detail;
+  EXPECT_TRUE(contains(s.detail, "constraint g[0] = 0.01"));
   State<double> moving = pendulumStart<double>();
   moving.v[0] = 0.1;
   s = integrate<double>(CartesianPendulum{}, moving, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kInconsistentStart);
-  EXPECT_NE(s.detail.find("dg/dt[0] = 0.1"), std::string::npos) << s.detail;
+  EXPECT_TRUE(contains(s.detail, "dg/dt[0] = 0.1"));
 }
 
 TEST(Integrator, AStartIsJudgedRelativeToTheScale) {
@@ -158,33 +158,28 @@ TEST(Integrator, TheStartGetsItsAccelerationsAndMultiplier) {
   EXPECT_NEAR(s.state.a()[0], -4, 1e-13);
 }
 
-void expectRefused(const std::function<void()>& build, const std::vector<std::string>& words) {
-  const auto message = refusal(build);
-  for (const auto& word : words) EXPECT_NE(message.find(word), std::string::npos) << message;
-}
-
 TEST(Integrator, IllegalCombinationsAreRefused) {
-  const auto build = [](auto problem, const char* method, const IntegratorOptions& o) {
-    return [=] { Integrator<double>(makeSystem<double>(problem), makeTableau<double>(method), o); };
+  const auto refused = [](auto problem, const char* method, const IntegratorOptions& o) {
+    return refusal([&] { Integrator<double>(makeSystem<double>(problem), makeTableau<double>(method), o); });
   };
   for (const char* method : {"lobatto_iiib_3", "lobatto_iiics_2"}) {
-    expectRefused(build(CartesianPendulum{}, method, adaptive(1e-6)), {method, "algebraic"});
+    EXPECT_TRUE(containsAll(refused(CartesianPendulum{}, method, adaptive(1e-6)), {method, "algebraic"}));
   }
   IntegratorOptions o = adaptive(1e-6);
   o.newton.kind = NewtonKind::kFull;
-  expectRefused(build(Riccati{}, "gauss_2", o), {"full", "schur", "coupled_dense"});
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "gauss_2", o), {"full", "schur", "coupled_dense"}));
   o.solver = StageSolverKind::kCoupledDense;
   o.step.estimate = ErrorEstimate::kEmbedded;
-  expectRefused(build(Riccati{}, "gauss_2", o), {"full", "embedded", "richardson"});
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "gauss_2", o), {"full", "embedded", "richardson"}));
   o = adaptive(1e-6);
   o.step.estimate = ErrorEstimate::kNone;
-  expectRefused(build(Riccati{}, "gauss_2", o), {"none", "predictive"});
-  expectRefused(build(Riccati{}, "gauss_2", fixedSteps(-0.1)), {"h = -0.1", ">= 0"});
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "gauss_2", o), {"none", "predictive"}));
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "gauss_2", fixedSteps(-0.1)), {"h = -0.1", ">= 0"}));
   o = adaptive(-2);
-  expectRefused(build(Riccati{}, "gauss_2", o), {"rtol", "-2", ">= 0"});
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "gauss_2", o), {"rtol", "-2", ">= 0"}));
   o = adaptive(1e-6);
   o.solver = StageSolverKind::kEigen;
-  expectRefused(build(Riccati{}, "lobatto_iiics_3", o), {"eigen", "defective"});
+  EXPECT_TRUE(containsAll(refused(Riccati{}, "lobatto_iiics_3", o), {"eigen", "defective"}));
 }
 
 }  // namespace

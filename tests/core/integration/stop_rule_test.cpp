@@ -95,14 +95,14 @@ TEST(StopRule, AnEventThatDoesNotComeIsNoSuccess) {
   const auto solution = Fall("impact:3").to(1);
   EXPECT_EQ(solution.outcome, Outcome::kNoEvent);
   EXPECT_EQ(name(solution.outcome), "no_event");
-  EXPECT_NE(solution.detail.find("impact:3, which came 2 of 3 times"), std::string::npos) << solution.detail;
+  EXPECT_TRUE(contains(solution.detail, "impact:3, which came 2 of 3 times"));
   EXPECT_EQ(solution.state.t, 1);
 }
 
 TEST(StopRule, WhatCannotBeIsRefused) {
   EXPECT_EQ(Fall("impakt:2").refusal(), "stop_at: unknown switch 'impakt'; did you mean 'impact'? Known: impact, apex");
-  EXPECT_NE(Fall("impact:0").refusal().find("stop_at impact:0"), std::string::npos) << Fall("impact:0").refusal();
-  EXPECT_NE(Fall("impact:x").refusal().find("stop_at impact:x"), std::string::npos);
+  EXPECT_TRUE(contains(Fall("impact:0").refusal(), "stop_at impact:0"));
+  EXPECT_TRUE(contains(Fall("impact:x").refusal(), "stop_at impact:x"));
   Fall smooth("impact");
   smooth.treatment = Discontinuity::kIgnore;
   EXPECT_NE(smooth.refusal(), "");
@@ -134,7 +134,7 @@ TEST(StopRule, AStateThatHardlyChangesEndsIt) {
   EXPECT_EQ(solution.detail.rfind("steady to 0.001", 0), 0u) << solution.detail;
   const auto before = integrator.integrate(decayStart(), 6);
   EXPECT_EQ(before.outcome, Outcome::kNoEvent);
-  EXPECT_NE(before.detail.find("steady to 0.001"), std::string::npos) << before.detail;
+  EXPECT_TRUE(contains(before.detail, "steady to 0.001"));
 }
 
 }  // namespace

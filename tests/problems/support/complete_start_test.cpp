@@ -40,7 +40,7 @@ TEST(CompleteStart, TakesTheLeastRatesOfASingularMatrix) {
 TEST(CompleteStart, RefusesAStartThatTheEquationsContradict) {
   auto scene = circuit<double>(0.5, 0.75);
   const auto message = refusal([&] { completeStart(scene); });
-  EXPECT_NE(message.find("its start"), std::string::npos) << message << " (0.5 + 0.75 is not 1)";
+  EXPECT_TRUE(contains(message, "its start")) << " (0.5 + 0.75 is not 1)";
 }
 
 // Its residual would read beyond the end.
