@@ -33,11 +33,6 @@ inline std::string chromium() {
 #define IRK_NEEDS_CHROMIUM() \
   if (chromium().empty()) GTEST_SKIP() << "no Chromium here: apt-get install chromium"
 
-inline std::string textOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 struct OpenedPage {
   int status = 0;                    ///< Chromium's
   std::string dom;                   ///< after its scripts
@@ -53,12 +48,12 @@ inline OpenedPage openPage(const std::filesystem::path& page, const std::string&
   const std::string command =
       "timeout 100 '" + chromium() +
       "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars --no-first-run "
-      "--allow-file-access-from-files --enable-logging=stderr --virtual-time-budget=10000 --dump-dom --user-data-dir='" +
-      (folder.path() / "profile").string() + "' '" + url + "' >'" + out.string() + "' 2>'" +
-      err.string() + "'";
+      "--allow-file-access-from-files --enable-logging=stderr --virtual-time-budget=10000 --dump-dom "
+      "--user-data-dir='" +
+      (folder.path() / "profile").string() + "' '" + url + "' >'" + out.string() + "' 2>'" + err.string() + "'";
   OpenedPage opened;
   opened.status = std::system(command.c_str());
-  opened.dom = textOf(out);
+  opened.dom = readInputFile(out);
   std::ifstream messages(err);
   for (std::string line; std::getline(messages, line);) {
     if (line.find("CONSOLE") != line.npos) opened.console.push_back(line);
@@ -74,7 +69,7 @@ inline nlohmann::json drive(const std::filesystem::path& page, const std::string
   std::ofstream(driver) << "<!DOCTYPE html><meta charset=\"utf-8\"><iframe id=\"frame\" width=\"" << width
                         << "\" height=\"900\" src=\"" << page.filename().string() << '#' << hash
                         << "\"></iframe><pre id=\"answer\"></pre>\n<script>"
-                        << textOf(std::string(IRK_SOURCE_DIR) + "/tests/browser/drive.js")
+                        << readInputFile(std::string(IRK_SOURCE_DIR) + "/tests/browser/drive.js")
                         << "\ndrive(async (page, view) => {" << body << "});</script>\n";
   const OpenedPage opened = openPage(driver);
   std::filesystem::remove(driver);

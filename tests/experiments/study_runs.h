@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -47,16 +46,11 @@ inline std::vector<std::filesystem::path> partsOf(const std::filesystem::path& f
   return parts;
 }
 
-inline std::string contentsOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// The number of complete rows in the parts, without the lines of column names.
 inline std::ptrdiff_t rowsInParts(const std::filesystem::path& folder) {
   std::ptrdiff_t rows = 0;
   for (const auto& part : partsOf(folder)) {
-    const std::string text = contentsOf(part);
+    const std::string text = readInputFile(part);
     rows += std::max<std::ptrdiff_t>(std::count(text.begin(), text.end(), '\n') - 1, 0);
   }
   return rows;

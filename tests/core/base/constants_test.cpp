@@ -4,19 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 
+#include "core/base/input_file.h"
+
 namespace irk::test {
 namespace {
-
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 TEST(Constants, EachHasAnotherNameAndSaysWhatItDecidesAndWhy) {
   std::set<std::string_view> names;
@@ -30,7 +25,7 @@ TEST(Constants, EachHasAnotherNameAndSaysWhatItDecidesAndWhy) {
 }
 
 TEST(Constants, AllAreInTheTable) {
-  const std::string header = textOf(std::filesystem::path(IRK_SOURCE_DIR) / "core/base/constants.h");
+  const std::string header = readInputFile(std::filesystem::path(IRK_SOURCE_DIR) / "core/base/constants.h");
   const std::regex declared("inline constexpr Constant k");
   const auto count = std::distance(std::sregex_iterator(header.begin(), header.end(), declared), {});
   EXPECT_EQ(count, static_cast<std::ptrdiff_t>(std::size(kConstants)));
@@ -73,7 +68,7 @@ TEST(Constants, NoOthersDecide) {
        std::filesystem::recursive_directory_iterator(std::filesystem::path(IRK_SOURCE_DIR) / "core")) {
     const auto& file = entry.path();
     if ((file.extension() != ".h" && file.extension() != ".cpp") || file.filename() == "constants.h") continue;
-    const std::string text = textOf(file);
+    const std::string text = readInputFile(file);
     for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at, ++seen) {
       EXPECT_TRUE(known.contains((*at)[1]))
           << file << ": " << (*at)[1] << ": a number that decides belongs into core/base/constants.h";

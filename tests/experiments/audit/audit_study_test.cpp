@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -222,8 +220,7 @@ TEST_F(SmallAudit, IsDrawn) {
     ASSERT_TRUE(
         drawFigure(script + ".gp", "data='" + folder().string() + "'; out='" + out.string() + "'", IRK_SOURCE_DIR, err))
         << err.str();
-    std::ifstream in(out.string() + ".svg");
-    const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::string svg = readInputFile(out.string() + ".svg");
     EXPECT_TRUE(containsAll(svg, {"default", "paper", "embedded", "variable"}));
     EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
   }

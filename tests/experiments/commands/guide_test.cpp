@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,10 +18,7 @@
 namespace irk {
 namespace {
 
-std::string guidePage(const std::string& name) {
-  std::ifstream file(IRK_SOURCE_DIR "/experiments/guide/" + name);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string guidePage(const std::string& name) { return readInputFile(IRK_SOURCE_DIR "/experiments/guide/" + name); }
 
 // The first cells of the page's rows: `| `name` | …`.
 std::set<std::string> namedRows(const std::string& page) {

@@ -39,11 +39,6 @@ class Queries : public testing::Test {
   TemporaryFolder folder_;
 };
 
-std::string contentOf(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST_F(Queries, PrintRowsOfJoinedTables) {
   const Ended ended = query(
       "select method, count(*) as runs, max(error) as worst, value from runs join orders using (method) "
@@ -153,15 +148,15 @@ TEST_F(Queries, ExportKeepsOtherFilesAndLeavesNoParts) {
   const Ended refused = exported();
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(containsAll(refused.err, {"mine.sqlite", "no database that irk export has written"}));
-  EXPECT_EQ(contentOf(file("mine.sqlite")), notes);
+  EXPECT_EQ(readInputFile(file("mine.sqlite")), notes);
   std::filesystem::remove(file("mine.sqlite"));
   ASSERT_EQ(exported().status, 0);
-  const std::string before = contentOf(file("mine.sqlite"));
+  const std::string before = readInputFile(file("mine.sqlite"));
   write("runs.csv", "key,method\n1,gauss_2\n2\n3,gauss_3\n");
   const Ended damaged = exported();
   EXPECT_EQ(damaged.status, 2);
   EXPECT_TRUE(containsAll(damaged.err, {"runs.csv:3"}));
-  EXPECT_EQ(contentOf(file("mine.sqlite")), before);
+  EXPECT_EQ(readInputFile(file("mine.sqlite")), before);
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_.path())) ++files;
   EXPECT_EQ(files, 2u) << "the study and the database";

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <thread>
 
 #include "experiments/runs/run_table.h"
@@ -69,8 +68,7 @@ TEST_F(Verbs, PlotClaimsAndReportOfWhatWasRun) {
   const Ended report = program({"report", "--results", results()});
   EXPECT_EQ(report.status, 0) << report.err;
   EXPECT_TRUE(containsAll(report.out, {"index.html"}));
-  std::ifstream in(results() + "/report/index.html");
-  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string page = readInputFile(results() + "/report/index.html");
   EXPECT_TRUE(containsAll(page, {"figures/drift_pendulum.svg", "id=\"C7\"", "study_drift"}));
   EXPECT_EQ(page.find("figures/work_slider_crank.svg"), page.npos) << "of a study that was not run";
   EXPECT_EQ(page.find("@CLAIMS@"), page.npos);

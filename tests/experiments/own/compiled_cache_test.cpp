@@ -45,7 +45,7 @@ class CompiledCache : public WithOwnCache {
     std::vector<std::string> all;
     for (int i = 0; i < count; ++i) {
       EXPECT_EQ(exitStatusOf(children[static_cast<std::size_t>(i)]), 0);
-      all.push_back(contentsOf(said(i)));
+      all.push_back(readInputFile(said(i)));
     }
     return all;
   }
@@ -61,7 +61,7 @@ int answerOf(const std::filesystem::path& object) { return SharedLibrary(object)
 TEST_F(CompiledCache, ADamagedObjectIsCompiledAnewOnce) {
   EXPECT_TRUE(containsAll(compile(), {"compiling"}));
   EXPECT_EQ(compile(), "");
-  const std::string bytes = contentsOf(object_);
+  const std::string bytes = readInputFile(object_);
   for (const std::string& damaged : {bytes.substr(0, bytes.size() / 2), bytes + " ", std::string()}) {
     std::ofstream(object_, std::ios::binary) << damaged;
     EXPECT_TRUE(containsAll(compile(), {"compiling", "damaged"}));
@@ -110,7 +110,7 @@ TEST_F(CompiledCache, OneProcessFails) {
 
 TEST_F(CompiledCache, ALibraryThatIsCutShortIsTold) {
   compile();
-  const std::string bytes = contentsOf(object_);
+  const std::string bytes = readInputFile(object_);
   const auto cut = folder() / "cut.so";
   for (const std::size_t left : {std::size_t{20}, std::size_t{100}, bytes.size() / 2, bytes.size() - 1}) {
     std::ofstream(cut, std::ios::binary) << bytes.substr(0, left);

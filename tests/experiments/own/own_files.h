@@ -6,7 +6,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "tests/experiments/support.h"
@@ -33,10 +32,7 @@ class OwnFiles : public testing::Test {
     return ran;
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
-  std::string read(const std::string& name) const {
-    std::ifstream in(folder_.path() / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const std::string& name) const { return readInputFile(folder_.path() / name); }
   std::string replaced(const std::string& name, const std::string& from, const std::string& to) const {
     std::string text = read(name);
     EXPECT_NE(text.find(from), text.npos) << from;

@@ -71,7 +71,7 @@ TEST_F(ReferenceLibraryTest, ADamagedFileIsMadeAgain) {
   keepReference(question, makeReferences({question}, {}, {}).front());
   ASSERT_EQ(cached().size(), 1u);
   const auto file = cached().front();
-  const std::string good = contentsOf(file);
+  const std::string good = readInputFile(file);
   ASSERT_TRUE(keptReference(question));
   const auto lastDigit = good.find_last_of("0123456789", good.find(',', good.find(",0.02,x,") + 8));
   std::string digit = good;

@@ -202,8 +202,7 @@ Result reference(std::vector<std::string> arguments) {
 }
 
 void replaceIn(const std::filesystem::path& file, const std::string& from, const std::string& to) {
-  std::ifstream in(file);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = readInputFile(file);
   const auto at = text.find(from);
   ASSERT_NE(at, std::string::npos);
   std::ofstream(file) << text.replace(at, from.size(), to);

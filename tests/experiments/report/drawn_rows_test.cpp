@@ -131,8 +131,7 @@ TEST_F(Drawn, ChangesNoFigureOfFewRows) {
           fmt::format("data='{}'; out='{}'; {}", (reduced ? some.folder() : results()).string(), out.string(), options),
           IRK_SOURCE_DIR, err))
           << err.str();
-      std::ifstream in(out.string() + ".svg");
-      pictures[reduced] = {std::istreambuf_iterator<char>(in), {}};
+      pictures[reduced] = readInputFile(out.string() + ".svg");
     }
     EXPECT_FALSE(pictures[0].empty());
     EXPECT_EQ(pictures[0], pictures[1]) << script;

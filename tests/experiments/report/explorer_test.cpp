@@ -241,7 +241,7 @@ TEST_F(ExplorerPage, IsOneFileWithItsDataAndItsLibrary) {
   std::ofstream(library) << "/* a library */";
   const auto path = write(library);
   ASSERT_TRUE(path) << err_.str();
-  const std::string page = contentsOf(*path);
+  const std::string page = readInputFile(*path);
   EXPECT_TRUE(containsAll(
       page, {"/* a library */", "A quick run", "<noscript>", "href=\"../peers/runs.csv\"", "\\u003c/script>"}));
   for (const auto* placeholder : {"@DATA@", "@D3@", "@BANNER@", "@DATE@", "@TABLES@"}) {

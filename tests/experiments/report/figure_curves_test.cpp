@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "experiments/tables/table.h"
 #include "tests/experiments/report/drawn.h"
@@ -152,8 +150,7 @@ TEST(FigureCurves, EveryScriptIsDrawnByATest) {
   const std::filesystem::path source(IRK_SOURCE_DIR);
   std::string tests;
   for (const auto& entry : std::filesystem::directory_iterator(source / "tests/experiments/report")) {
-    std::ifstream in(entry.path());
-    tests.append(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    tests += readInputFile(entry.path());
   }
   for (const auto& entry : std::filesystem::directory_iterator(source / "plots")) {
     const auto script = entry.path().filename().string();

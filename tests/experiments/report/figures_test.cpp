@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -81,8 +79,7 @@ TEST(Figures, FailureMapsShowDigitsAndCauses) {
                          "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
                          IRK_SOURCE_DIR, err))
       << err.str();
-  std::ifstream in(out.string() + ".svg");
-  const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string svg = readInputFile(out.string() + ".svg");
   EXPECT_TRUE(containsAll(svg, {"Radau IIA", "Newton fails", "too slow", "correct digits"}));
   EXPECT_EQ(svg.find("singular"), svg.npos) << "only causes that occur";
   EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
@@ -102,8 +99,7 @@ TEST(Figures, RobustnessShowsTheCollectionsAndSolversOfTheTable) {
   ASSERT_TRUE(drawFigure("robustness.gp", "data='" + folder.path().string() + "'; out='" + out.string() + "'",
                          IRK_SOURCE_DIR, err))
       << err.str();
-  std::ifstream in(out.string() + ".svg");
-  const std::string svg{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string svg = readInputFile(out.string() + ".svg");
   EXPECT_TRUE(containsAll(svg, {"ivp", "variable", "honest failure", "tolerance"}));
   EXPECT_EQ(svg.find("multibody"), svg.npos) << "only collections with runs";
 }

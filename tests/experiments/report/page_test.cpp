@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -14,11 +13,6 @@
 
 namespace irk {
 namespace {
-
-std::string textOf(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // The values of an attribute of the page's elements.
 std::vector<std::string> values(const std::string& page, const std::string& attribute) {
@@ -90,7 +84,7 @@ class ReportPage : public testing::Test {
           << "<?xml version=\"1.0\"?>\n<svg\n width=\"" << (figure[0] == 'o' ? 1080 : 640) << "\" height=\"400\">";
     }
   }
-  std::string page() const { return textOf(writeReport({results_, IRK_SOURCE_DIR})); }
+  std::string page() const { return readInputFile(writeReport({results_, IRK_SOURCE_DIR})); }
 
   TemporaryFolder folder_;
   std::filesystem::path results_;
@@ -231,7 +225,7 @@ TEST_F(QuickReportPage, MarksItsFigures) {
                                "'; components='x'; scene='riccati_tracking'",
                            IRK_SOURCE_DIR, err))
         << err.str();
-    return textOf(results_ / (out + ".svg"));
+    return readInputFile(results_ / (out + ".svg"));
   };
   const std::string mark = "quick run: no verdict";
   const std::string marked = draw("marked", "quick=1; ");

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -84,10 +83,7 @@ class RanksOfMpi : public StoredRuns {
     return before + " " IRK_PROGRAM " run " + path + "/small.toml --results " + path + "/" + tree + " > " + path + "/" +
            tree + ".out 2>&1";
   }
-  std::string output(const std::string& tree) const {
-    std::ifstream in(folder_.path() / (tree + ".out"));
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  std::string output(const std::string& tree) const { return readInputFile(folder_.path() / (tree + ".out")); }
   static int statusOf(const std::string& command) {
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -140,7 +136,7 @@ methods = ["radau_iia_2", "radau_iia_3", "gauss_2"]
   ASSERT_EQ(statusOf(command("four", kFour)), 0) << output("four");
   const Table one = exported("one");
   EXPECT_EQ(one.rows.size(), 48u);
-  EXPECT_NE(contentsOf(folder("one") / "runs.csv").find("not run: "), std::string::npos);
+  EXPECT_NE(readInputFile(folder("one") / "runs.csv").find("not run: "), std::string::npos);
   expectSame(exported("four"), one);
 }
 

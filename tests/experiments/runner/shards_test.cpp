@@ -99,8 +99,9 @@ TEST(Shards, SlurmScriptRunsAsWritten) {
   };
   const std::string irk = IRK_PROGRAM, in_odd = "cd \"my \\$(touch hacked) 'study'\"; ";
   ASSERT_EQ(bash(in_odd + irk + " slurm small.toml -n 3 --results 'my results' > ../job.sh"), 0);
-  ASSERT_EQ(bash("for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i /bin/bash job.sh; done"), 0) << contentsOf(path + "/log");
-  ASSERT_EQ(bash("eval \"$(/bin/sed -n 's/^#   //p' job.sh)\""), 0) << contentsOf(path + "/log");
+  ASSERT_EQ(bash("for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i /bin/bash job.sh; done"), 0)
+      << readInputFile(path + "/log");
+  ASSERT_EQ(bash("eval \"$(/bin/sed -n 's/^#   //p' job.sh)\""), 0) << readInputFile(path + "/log");
   ASSERT_EQ(bash(in_odd + irk + " run small.toml --results ../whole"), 0);
   expectSame(readTable(folder.path() / odd / "my results" / "small" / "runs.csv"),
              readTable(folder.path() / "whole" / "small" / "runs.csv"));

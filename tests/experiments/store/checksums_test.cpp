@@ -81,7 +81,7 @@ TEST_F(Checksums, NoFlippedByteIsSilent) {
   int silent = 0;
   for (int i = 0; i < kFlips; ++i) {
     const auto& part = parts[random() % parts.size()];
-    const std::string text = contentsOf(part);
+    const std::string text = readInputFile(part);
     std::string flipped = text;
     const std::size_t at = random() % flipped.size();
     flipped[at] = static_cast<char>(static_cast<unsigned char>(flipped[at]) ^ (1 + random() % 255));
@@ -97,7 +97,7 @@ TEST_F(Checksums, NoFlippedByteIsSilent) {
 TEST_F(Checksums, AChangedRowIsMadeAgain) {
   const Table whole = run();
   const auto part = partsOf(folder()).front();
-  const std::string text = contentsOf(part);
+  const std::string text = readInputFile(part);
   std::string changed = text;
   changed[changed.find("success") + 6] = 'S';
   write(part, changed);
@@ -112,7 +112,7 @@ TEST_F(Checksums, AChangedRowIsMadeAgain) {
 TEST_F(Checksums, DamagedNamesAreToldFromThoseOfAnotherVersion) {
   const Table whole = run();
   const auto part = partsOf(folder()).front();
-  std::string changed = contentsOf(part);
+  std::string changed = readInputFile(part);
   changed[changed.find("outcome")] ^= 1;
   write(part, changed);
   expectSame(run(), whole);

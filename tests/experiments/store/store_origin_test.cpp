@@ -38,7 +38,7 @@ TEST_F(Origin, StaleRowsAreKeptOrRemade) {
   EXPECT_EQ(stale(kept), 4);
   EXPECT_TRUE(containsAll(told_.str(), {"4 runs were made by other code", "--stale remake"}));
   EXPECT_EQ(made(), 0);
-  EXPECT_TRUE(containsAll(contentsOf(folder() / "runs.csv"), {"othercode (4 rows, stale)"}));
+  EXPECT_TRUE(containsAll(readInputFile(folder() / "runs.csv"), {"othercode (4 rows, stale)"}));
   EXPECT_EQ(statusOf(study(), options(), reader()).all.stale, 4u);
 
   const Table remade = run("results", {.stale = store::StaleRows::kRemake});

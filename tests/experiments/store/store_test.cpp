@@ -40,7 +40,7 @@ TEST_F(Results, OneDamagedLineCostsOneRow) {
   const Table whole = run();
   const auto part = partsOf(folder()).front();
   std::vector<std::string> lines;
-  std::istringstream in(contentsOf(part));
+  std::istringstream in(readInputFile(part));
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 10u);
   const auto key = [&](std::size_t line) { return lines[line].substr(0, 16); };
@@ -63,7 +63,8 @@ TEST_F(Results, OneDamagedLineCostsOneRow) {
   EXPECT_EQ(made(), 3);
   auto aside = part;
   aside.replace_extension(".damaged");
-  EXPECT_TRUE(containsAll(contentsOf(aside), {"line 3: " + lines[2], "line 6: " + lines[5], "line 10: " + lines[9]}));
+  EXPECT_TRUE(
+      containsAll(readInputFile(aside), {"line 3: " + lines[2], "line 6: " + lines[5], "line 10: " + lines[9]}));
   EXPECT_EQ(keysOf(readTable(partsOf(folder()).back())), lost) << "nothing else is made again";
   run();
   EXPECT_EQ(told_.str().find("cannot be read"), std::string::npos) << "it is said once";
@@ -73,11 +74,11 @@ TEST_F(Results, PartsOfAnotherVersionStay) {
   run();
   const auto other = folder() / "parts" / "runs.0.csv";
   writeTable(other, {{}, {"key", "scene"}, {{"1", "kepler"}}});
-  const auto before = contentsOf(other);
+  const auto before = readInputFile(other);
   EXPECT_EQ(run().rows.size(), 9u);
   EXPECT_TRUE(containsAll(told_.str(), {other.string(), "columns"}));
   EXPECT_EQ(made(), 0);
-  EXPECT_EQ(contentsOf(other), before);
+  EXPECT_EQ(readInputFile(other), before);
 }
 
 std::vector<store::Entry> entriesOf(const Store& store) {
@@ -96,7 +97,7 @@ TEST_F(Results, RowsAreExportedAsTheyAreWritten) {
     part.rows[4][part.column("detail")] = std::string(100'000, ',');  // longer than what is read at once
     part.rows[8].back() = "\"";
   });
-  const std::string text = contentsOf(partsOf(folder()).front());
+  const std::string text = readInputFile(partsOf(folder()).front());
   const Store store = reader();
   auto entries = entriesOf(store);
   ASSERT_EQ(entries.size(), 9u);
@@ -115,7 +116,7 @@ TEST_F(Results, RowsAreExportedAsTheyAreWritten) {
 TEST_F(Results, RowsThatChangedSinceTheyWereReadAreNotExported) {
   run();
   const auto part = partsOf(folder()).front();
-  const std::string text = contentsOf(part);
+  const std::string text = readInputFile(part);
   const auto write = [&part](const std::string& its) { std::ofstream(part, std::ios::binary) << its; };
   const Store changed = reader(), cut = reader();
   const auto entries = entriesOf(changed);

@@ -20,12 +20,12 @@ TEST(NewFiles, GetTheirNamesWhenTheyAreWhole) {
     second.out() << "second";
     EXPECT_FALSE(std::filesystem::exists(file));
     first.close();
-    EXPECT_EQ(contentsOf(file), "first");
+    EXPECT_EQ(readInputFile(file), "first");
     second.close();
     NewFile left(file);
     left.out() << "not whole";
   }
-  EXPECT_EQ(contentsOf(file), "second");
+  EXPECT_EQ(readInputFile(file), "second");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing is left over";
 }
 
@@ -37,8 +37,8 @@ TEST(NewFiles, DoNotFollowLinks) {
   std::filesystem::create_symlink(target, file.string() + ".new");
   std::filesystem::create_symlink(target, file.string() + "." + hostName() + "." + std::to_string(getpid()) + ".1.new");
   writeTable(file, {{}, {"a"}, {{"1"}}});
-  EXPECT_EQ(contentsOf(target), "kept");
-  EXPECT_EQ(contentsOf(file), "a\n1\n");
+  EXPECT_EQ(readInputFile(target), "kept");
+  EXPECT_EQ(readInputFile(file), "a\n1\n");
 }
 
 TEST(TimingClasses, HaveTheLibrariesOfTheIntegrator) {

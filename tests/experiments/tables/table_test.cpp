@@ -22,11 +22,6 @@ Table sample() {
           {{"a", "1", "plain"}, {"b", "nan", "a \"quoted\", comma"}, {"c", "3", "two\nlines"}, {"d", "", "empty"}}};
 }
 
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 TEST(Table, ReadsBackWhatWasWritten) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "deep" / "runs.csv";
@@ -49,12 +44,12 @@ TEST(Table, IsWrittenRowByRow) {
     EXPECT_FALSE(std::filesystem::exists(path)) << "not before it is whole";
     writer.close();
   }
-  EXPECT_EQ(contents(path), contents(whole));
+  EXPECT_EQ(readInputFile(path), readInputFile(whole));
   {
     TableWriter given_up(path, {}, {"other"});
     given_up.add({"1"});
   }
-  EXPECT_EQ(contents(path), contents(whole));
+  EXPECT_EQ(readInputFile(path), readInputFile(whole));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1) << "nothing is left beside";
   EXPECT_THROW(TableWriter("/dev/full/runs.csv", {}, {"key"}), std::exception);
 }
@@ -107,7 +102,7 @@ TEST(Table, DropsAHalfWrittenLastRow) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "runs.csv";
   writeTable(path, sample());
-  const std::string whole = contents(path);
+  const std::string whole = readInputFile(path);
   // Cuts the last row short at every position, its line end included.
   const std::size_t last_row = whole.rfind("d,");
   for (std::size_t length = last_row; length < whole.size(); ++length) {

@@ -2,11 +2,9 @@
 #include "irk/table.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,29 +12,24 @@
 #include "irk/dual.h"
 #include "irk/multiprecision.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace irk {
 namespace {
 
 class Tables : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
   std::string refusal(const std::string& y = "M") const {
-    const TableReadings readings(folder_.string());
+    const TableReadings readings(folder_.path().string());
     return irk::refusal([&] { const TimeTable<double> table("torque.csv", "t", y); });
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("irk_tables_" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Tables, AreLinearBetweenTheRowsAndDeclareTheirKinks) {
-  write("torque.csv", "# a comment\r\nt; n;M\r\n0;7;1\r\n1;7;3\r\n\r\n2;7;5\r\n4;7;+5\r\n5;7;-1e0\r\n");
-  const TableReadings readings(folder_.string());
+  folder_.write("torque.csv", "# a comment\r\nt; n;M\r\n0;7;1\r\n1;7;3\r\n\r\n2;7;5\r\n4;7;+5\r\n5;7;-1e0\r\n");
+  const TableReadings readings(folder_.path().string());
   const TimeTable<double> torque("torque.csv", "t", "M");
   EXPECT_EQ(torque(0.0), 1);
   EXPECT_EQ(torque(0.5), 2);
@@ -53,13 +46,13 @@ TEST_F(Tables, AreLinearBetweenTheRowsAndDeclareTheirKinks) {
   const TableRead& read = readings.all().front();
   EXPECT_EQ(read.first + " " + read.last, "0 5");
   EXPECT_EQ(read.kinks, (std::vector<std::string>{"2", "4"}));
-  EXPECT_EQ(std::filesystem::path(read.file), folder_ / "torque.csv");
+  EXPECT_EQ(std::filesystem::path(read.file), folder_.path() / "torque.csv");
   EXPECT_EQ(kinksRead().size(), 2u);
 }
 
 TEST_F(Tables, HaveAllDigitsOfTheirText) {
-  write("torque.csv", "t,M\n0,0\n0.3,0.1\n1,1\n");
-  const TableReadings readings(folder_.string());
+  folder_.write("torque.csv", "t,M\n0,0\n0.3,0.1\n1,1\n");
+  const TableReadings readings(folder_.path().string());
   const TimeTable<BigFloat> torque("torque.csv", "t", "M");
   EXPECT_EQ(torque.kinks().front(), BigFloat("0.3"));
   EXPECT_LT(abs(torque(BigFloat("0.15")) - BigFloat("0.05")), BigFloat(1e-49));
@@ -68,8 +61,8 @@ TEST_F(Tables, HaveAllDigitsOfTheirText) {
 // The slopes at the rows 0, 1, 3, 4 by the formulas of Fritsch & Butland, with the secants 1, 2, 0:
 // d1 = 9 / (5 / 1 + 4 / 2) = 9/7, d2 = 0, d0 = ((2 + 2) 1 - 1 * 2) / 3 = 2/3, d3 = 0.
 TEST_F(Tables, TheCubicIsThatOfFritschAndButland) {
-  write("torque.csv", "t,M\n0,0\n1,1\n3,5\n4,5\n");
-  const TableReadings readings(folder_.string());
+  folder_.write("torque.csv", "t,M\n0,0\n1,1\n3,5\n4,5\n");
+  const TableReadings readings(folder_.path().string());
   const TimeTable<double> torque("torque.csv", "t", "M", Interpolation::kCubic);
   const auto slope = [&](double t) {
     DualNumber<double, 1> at(t);
@@ -108,7 +101,7 @@ TEST_F(Tables, MistakesAreNamedWithTheirLine) {
       {"t,M\n0,1\n1\n", "torque.csv:3: 1 cells; the line with the names has 2"},
       {"t;M\n0;1\n1;2,5\n", "torque.csv:3: M = '2,5': a finite number with a decimal point"}};
   for (const auto& [text, part] : cases) {
-    write("torque.csv", text);
+    folder_.write("torque.csv", text);
     EXPECT_TRUE(contains(refusal(), part)) << text;
     EXPECT_EQ(refusal().find('\n'), std::string::npos);
   }

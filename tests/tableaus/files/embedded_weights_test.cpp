@@ -1,12 +1,11 @@
 // Embedded weights in tableau files: read, checked, written, refused; and tableaus as source text.
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "core/base/input_file.h"
 #include "tableaus/catalogue/report.h"
 #include "tableaus/files/file.h"
 #include "tests/tableaus/support.h"
+#include "tests/temporary_folder.h"
 
 namespace irk {
 namespace {
@@ -22,33 +21,15 @@ std::string sdirk4(const std::string& order_hat = "order_hat: 3\n",
 
 std::string verdictOf(const std::string& text) { return checkTableau(parseTableau(text, "x")).text; }
 
-/// A folder of its own with the file; removed at the end.
-class Exported {
- public:
-  explicit Exported(const std::string& text)
-      : folder_(testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(file()) << text;
-  }
-  Exported(const Exported&) = delete;
-  Exported& operator=(const Exported&) = delete;
-  ~Exported() { std::filesystem::remove_all(folder_); }
-
-  std::string file() const { return folder_ + "/tableau.txt"; }
-  /// The output of `command` in the folder, where the file `name` holds the export.
-  std::string run(const std::string& format, const std::string& name, const std::string& after,
-                  const std::string& command) const {
-    std::ofstream(folder_ + "/" + name) << exportTableau(file(), format) << after;
-    const std::string all = "cd '" + folder_ + "' && " + command + " > out 2>&1";
-    const int status = std::system(all.c_str());
-    std::ifstream out(folder_ + "/out");
-    const std::string text{std::istreambuf_iterator<char>(out), {}};
-    return status == 0 ? text : "failed: " + text;
-  }
-
- private:
-  std::string folder_;
-};
+/// The output of `command` in a folder where the file `name` holds sdirk4 as `format`, and `after`.
+std::string outputWith(const std::string& format, const std::string& name, const std::string& after,
+                       const std::string& command) {
+  const TemporaryFolder folder;
+  folder.write(name, exportTableau(folder.write("tableau.txt", sdirk4()), format) + after);
+  const std::string all = "cd '" + folder.path().string() + "' && " + command + " > out 2>&1";
+  const int status = std::system(all.c_str());
+  return (status == 0 ? "" : "failed: ") + readInputFile(folder.path() / "out");
+}
 
 TEST(EmbeddedWeights, AreReadCheckedAndWritten) {
   const TableauFile file = parseTableau(sdirk4(), "x");
@@ -93,19 +74,17 @@ TEST(EmbeddedWeights, AreRefusedWithLineAndReason) {
 }
 
 TEST(TableauText, IsCThatCompiles) {
-  const Exported tableau(sdirk4());
-  EXPECT_EQ(tableau.run("c", "t.c",
-                        "#include <stdio.h>\nint main(void) { printf(\"%.17g %.17g %.17g %.17g\\n\", A[3][1], b[1], "
-                        "c[2], b_hat[0]); return sizeof A != 25 * sizeof(double); }\n",
-                        "cc -std=c99 -Wall -Wextra -Werror t.c -o t && ./t"),
+  EXPECT_EQ(outputWith("c", "t.c",
+                       "#include <stdio.h>\nint main(void) { printf(\"%.17g %.17g %.17g %.17g\\n\", A[3][1], b[1], "
+                       "c[2], b_hat[0]); return sizeof A != 25 * sizeof(double); }\n",
+                       "cc -std=c99 -Wall -Wextra -Werror t.c -o t && ./t"),
             fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", -137.0 / 2720, -49.0 / 48, 11.0 / 20, 59.0 / 48));
 }
 
 TEST(TableauText, IsPythonThatRuns) {
   if (std::system("python3 -c 'import numpy' > /dev/null 2>&1") != 0) GTEST_SKIP() << "python3 has no numpy";
-  const Exported tableau(sdirk4());
-  EXPECT_EQ(tableau.run("numpy", "t.py", "print(A.shape, A[3, 1] == -137 / 2720, b_hat[0] == 59 / 48, c.sum())\n",
-                        "python3 t.py"),
+  EXPECT_EQ(outputWith("numpy", "t.py", "print(A.shape, A[3, 1] == -137 / 2720, b_hat[0] == 59 / 48, c.sum())\n",
+                       "python3 t.py"),
             "(5, 5) True True 3.05\n");
 }
 

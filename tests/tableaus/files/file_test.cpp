@@ -1,37 +1,25 @@
 #include "tableaus/files/file.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "core/base/input_file.h"
 #include "tableaus/catalogue/report.h"
 #include "tests/tableaus/support.h"
+#include "tests/temporary_folder.h"
 
 namespace irk {
 namespace {
 
-/// A file in the temporary folder; the destructor removes it.
+/// A tableau file that lasts as long as the object.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& text)
-      : path_(testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt") {
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { std::remove(path_.c_str()); }
-
+  explicit TemporaryFile(const std::string& text) : path_(folder_.write("tableau.txt", text)) {}
   const std::string& path() const { return path_; }
 
  private:
+  TemporaryFolder folder_;
   std::string path_;
 };
-
-std::string contentOf(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // The refusals below name line numbers of this text.
 const std::vector<std::string> kRadau2 = {
@@ -203,7 +191,7 @@ TEST(File, ExportGivesAFileThatReadsBackTheSame) {
 TEST(Data, FilesEqualTheConstruction) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(IRK_SOURCE_DIR "/tableaus/data")) {
-    EXPECT_EQ(contentOf(entry.path()), exportTableau(entry.path().stem().string(), "file")) << entry.path();
+    EXPECT_EQ(readInputFile(entry.path()), exportTableau(entry.path().stem().string(), "file")) << entry.path();
     ++files;
   }
   EXPECT_GE(files, 8);
