@@ -1,10 +1,15 @@
 // Mutated texts for testing the readers of files.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
+#include <exception>
 #include <random>
 #include <span>
 #include <string>
+
+#include "tests/refusal.h"
 
 namespace irk::test {
 
@@ -42,5 +47,29 @@ class Mutations {
   std::span<const std::string> seeds_, pieces_;
   std::mt19937 random_;
 };
+
+struct ReadTexts {
+  int read = 0, refused = 0;
+};
+
+/// Reads mutated texts: each is read, or refused by a Misuse that contains `name`. The first that is neither fails the
+/// test.
+template <class Read>
+ReadTexts readMutated(Mutations mutations, int texts, const std::string& name, const Read& read) {
+  ReadTexts counts;
+  for (int i = 0; i < texts && !testing::Test::HasFailure(); ++i) {
+    const std::string text = mutations.next();
+    try {
+      read(text);
+      ++counts.read;
+    } catch (const Misuse& refused) {
+      ++counts.refused;
+      EXPECT_TRUE(contains(refused.what(), name)) << text;
+    } catch (const std::exception& other) {
+      ADD_FAILURE() << other.what() << "\n" << text;
+    }
+  }
+  return counts;
+}
 
 }  // namespace irk::test

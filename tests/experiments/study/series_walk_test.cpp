@@ -26,12 +26,12 @@ int skipsAfter(const std::vector<Outcome>& outcomes) {
 }
 
 TEST(SeriesWalk, EndsAfterTwoRunsInARowThatTookTooLong) {
-  constexpr Outcome kGood = Outcome::kSuccess, kLate = Outcome::kTimeout, kMany = Outcome::kMaxSteps;
+  constexpr Outcome kGood = Outcome::kSuccess, kTimeout = Outcome::kTimeout, kMany = Outcome::kMaxSteps;
   EXPECT_EQ(skipsAfter({kGood, kGood, kGood, kGood, kGood}), -1);
-  EXPECT_EQ(skipsAfter({kLate, kGood, kMany, kGood, kLate}), -1);
-  EXPECT_EQ(skipsAfter({kGood, kGood, kGood, kLate, kMany}), 4);
-  EXPECT_EQ(skipsAfter({kGood, kLate, kMany, kMany, kMany}), 2);  // the last two are not made
-  EXPECT_EQ(skipsAfter({kGood, kGood, Outcome::kNewtonFailed, Outcome::kNewtonFailed, kLate}), -1);
+  EXPECT_EQ(skipsAfter({kTimeout, kGood, kMany, kGood, kTimeout}), -1);
+  EXPECT_EQ(skipsAfter({kGood, kGood, kGood, kTimeout, kMany}), 4);
+  EXPECT_EQ(skipsAfter({kGood, kTimeout, kMany, kMany, kMany}), 2);  // the last two are not made
+  EXPECT_EQ(skipsAfter({kGood, kGood, Outcome::kNewtonFailed, Outcome::kNewtonFailed, kTimeout}), -1);
 }
 
 }  // namespace

@@ -206,21 +206,9 @@ const std::string kPieces[] = {"[",
 
 // 100 000 texts made from two valid ones by a few random changes: each gives a study or a misuse of one line.
 TEST(StudyReader, SurvivesMutatedTexts) {
-  test::Mutations mutations(kSeeds, kPieces, 20041);
-  int studies = 0, refused = 0;
-  for (int i = 0; i < 100'000; ++i) {
-    const std::string text = mutations.next();
-    try {
-      parse(text);
-      ++studies;
-    } catch (const Misuse& line) {
-      ++refused;
-      ASSERT_NE(std::string(line.what()).find("mine.toml"), std::string::npos) << line.what() << "\n" << text;
-    } catch (const std::exception& other) {
-      FAIL() << other.what() << "\n" << text;
-    }
-  }
-  EXPECT_GT(studies, 1000) << "of " << studies + refused;
+  const auto [read, refused] = test::readMutated(test::Mutations(kSeeds, kPieces, 20041), 100'000, "mine.toml",
+                                                 [](const std::string& text) { parse(text); });
+  EXPECT_GT(read, 1000);
   EXPECT_GT(refused, 5000);
 }
 

@@ -30,21 +30,12 @@ class MutatedTables : public testing::Test {
 
 // Reading gives a table with complete rows, or a misuse that names the file.
 TEST_F(MutatedTables, AreReadOrRefused) {
-  test::Mutations mutations(kTableSeeds, kTablePieces, 20043);
-  int read = 0, refused = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    const std::string text = mutations.next();
-    try {
-      const Table table = readTable(written(text));
-      for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << text;
-      ++read;
-    } catch (const Misuse& line) {
-      ++refused;
-      ASSERT_NE(std::string(line.what()).find("table.csv"), std::string::npos) << line.what();
-    } catch (const std::exception& other) {
-      FAIL() << other.what() << "\n" << text;
-    }
-  }
+  const auto [read, refused] = test::readMutated(test::Mutations(kTableSeeds, kTablePieces, 20043), 20'000, "table.csv",
+                                                 [this](const std::string& text) {
+                                                   const Table table = readTable(written(text));
+                                                   for (const auto& row : table.rows)
+                                                     EXPECT_EQ(row.size(), table.columns.size()) << text;
+                                                 });
   EXPECT_GT(read, 1000);
   EXPECT_GT(refused, 1000);
 }
