@@ -154,67 +154,6 @@ TEST(Cli, AFailedRunIsStatusOneWithItsCause) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["outcome"], "max_steps");
 }
 
-struct BadInput {
-  std::vector<std::string> arguments;
-  std::vector<std::string> message;
-};
-
-TEST(Cli, BadInputIsStatusTwoWithPlaceValueAndRange) {
-  const BadInput inputs[] = {
-      {{"solve", "slider_krank"}, {"scene", "slider_krank", "'slider_crank'"}},
-      {{"solve", "kepler", "--method", "radau_ia_"}, {"radau_ia_"}},
-      {{"solve", "kepler", "--scalar", "mp20"}, {"mp20", "mp30", "mp1000"}},
-      {{"solve", "kepler", "--digits", "1001"}, {"mp1001", "mp30", "mp1000"}},
-      {{"solve", "kepler", "--method", "gaus_3"}, {"gaus_3", "'gauss_3'"}},
-      {{"solve", "kepler", "--method", "gauss_0"}, {"0"}},
-      {{"solve", "kepler", "--newton", "simple"}, {"newton", "simple", "'simplified'"}},
-      {{"solve", "kepler", "--solver", "schurr"}, {"solver", "schurr", "'schur'"}},
-      {{"solve", "kepler", "--jacobian", "no_mas"}, {"jacobian", "no_mas", "'no_mass'"}},
-      {{"solve", "kepler", "--step", "-0.1"}, {"h", "-0.1", ">= 0"}},
-      {{"solve", "kepler", "--step", "0"}, {"step", "0", "> 0"}},
-      {{"solve", "kepler", "--tol", "-2"}, {"--tol", "-2", "> 0"}},
-      {{"solve", "kepler", "--tol", "1e-8s"}, {"--tol", "'1e-8s'", "> 0"}},
-      {{"solve", "kepler", "--method", "Radau-IIA-5"}, {"'Radau-IIA-5'", "did you mean 'radau_iia_5'?"}},
-      {{"solve", "kepler", "--tol", "small"}, {"tol", "small", "number"}},
-      {{"solve", "kepler", "--step", "0.1", "--tol", "1e-6"}, {"step", "tol"}},
-      {{"solve", "kepler", "--control", "fixed"}, {"step", "> 0"}},
-      {{"solve", "kepler", "--estimate", "none"}, {"control", "predictive", "none"}},
-      {{"solve", "stick_slip", "--t-end", "-1"}, {"t_end", "switches"}},
-      {{"solve", "kepler", "--t-end", "-1", "--method", "cvode_bdf"}, {"t_end", "-1"}},
-      {{"solve", "kepler", "--set", "ee=0.5"}, {"'ee'", "'e'", "kepler"}},
-      {{"solve", "kepler", "--set", "k"}, {"'k'", "name=value"}},
-      {{"solve", "pendulum", "--method", "lobatto_iiib_3"}, {"lobatto_iiib_3", "algebraic"}},
-      {{"solve", "kepler", "--newton", "full", "--solver", "schur"}, {"full", "schur"}},
-      {{"solve", "kepler", "--methd", "gauss_2"}, {"'--methd'", "'--method'", "irk solve --help"}},
-      {{"solve", "kepler", "--newtn=full"}, {"'--newtn'", "'--newton'"}},
-      {{"tableau", "show", "gauss_2", "--digit", "3"}, {"'--digit'", "'--digits'"}},
-      {{"help", "slove"}, {"slove", "'solve'"}},
-      {{"run", "nosuch.toml"}, {"nosuch.toml", "no such file"}},
-      {{"run", "no_such_folder/order"}, {"no_such_folder/order", "no such file"}},
-      {{"solve"}, {"scene"}},
-      {{"slove", "kepler"}, {"slove", "'solve'"}},
-      {{}, {"subcommand"}},
-      {{"run", "ordr"}, {"ordr", "'order'"}},
-      {{"run", "order", "--jobs", "-2"}, {"jobs", "-2", "0"}},
-      {{"run", "order", "--shard", "3/2"}, {"shard", "3", "2"}},
-      {{"list", "scene"}, {"scene", "'scenes'"}},
-      {{"list", "scenes", "keplr"}, {"keplr", "'kepler'"}},
-      {{"list", "methods", "kepler"}, {"list methods", "'kepler'"}},
-      {{"list", "methods", "--long"}, {"--long", "list scenes"}},
-      {{"tableau", "check", "no_such_file.txt"}, {"no_such_file.txt"}},
-      {{"merge", "no_such_folder"}, {"no_such_folder"}},
-      {{"compare", "no_such_folder", "neither"}, {"no_such_folder"}},
-  };
-  for (const auto& [arguments, message] : inputs) {
-    std::string line;
-    for (const auto& argument : arguments) line += argument + " ";
-    const auto run = program(arguments);
-    EXPECT_EQ(run.status, 2) << line << run.err;
-    EXPECT_EQ(run.out, "") << line;
-    EXPECT_TRUE(containsAll(run.err, message)) << line;
-  }
-}
-
 TEST(Cli, ADamagedTableauFileIsStatusTwo) {
   const TemporaryFolder folder;
   const auto whole = program({"tableau", "export", "radau_iia_3"});

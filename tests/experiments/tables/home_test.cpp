@@ -4,7 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/base/input_file.h"
+#include "experiments/tables/environment.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -32,6 +33,45 @@ TEST(Home, OfAnInstalledProgramIsBesideIt) {
   EXPECT_TRUE(containsAll(messageOf("", "./link"), {"Known: tableaus", "drift"})) << "of the sources";
   const std::string sources = std::string("IRK_HOME=") + IRK_SOURCE_DIR;
   EXPECT_TRUE(containsAll(messageOf(sources, "bin/irk"), {"Known: tableaus", "drift"})) << "IRK_HOME comes first";
+}
+
+/// Another working folder and IRK_HOME until the end of the test.
+class Elsewhere {
+ public:
+  explicit Elsewhere(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  ~Elsewhere() {
+    std::filesystem::current_path(before_);
+    unsetenv("IRK_HOME");
+  }
+  Elsewhere(const Elsewhere&) = delete;
+  Elsewhere& operator=(const Elsewhere&) = delete;
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST(Home, AFolderPlotsOfTheWorkingFolderIsNotUsed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "plots");
+  folder.write("plots/figures.txt", "mine|mine.gp|mine|Mine|Mine|\n");
+  folder.write("plots/stability.gp", "system 'touch " + (folder.path() / "executed").string() + "'\n");
+  const Elsewhere here(folder.path());
+  const Ended plotted = program({"tableau", "plot", "gauss_2", "--out", "figure"});
+  EXPECT_EQ(plotted.status, 0) << plotted.err;
+  EXPECT_TRUE(std::filesystem::exists("figure.svg"));
+  EXPECT_FALSE(std::filesystem::exists("executed"));
+  EXPECT_EQ(homeFolder(), std::filesystem::path(IRK_SOURCE_DIR));
+  // A folder that the user names in IRK_HOME is used.
+  setenv("IRK_HOME", folder.path().c_str(), 1);
+  EXPECT_EQ(homeFolder(), folder.path());
+  setenv("IRK_HOME", (folder.path() / "empty").c_str(), 1);
+  for (const auto& line : {std::vector<std::string>{"plot", "drift"}, {"tableau", "plot", "gauss_2"}}) {
+    const Ended ended = program(line);
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_TRUE(contains(ended.err, "IRK_HOME"));
+  }
 }
 
 }  // namespace
