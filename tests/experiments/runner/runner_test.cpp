@@ -10,12 +10,11 @@
 #include <sstream>
 
 #include "experiments/compare/folders.h"
-#include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/compared_tables.h"
-#include "tests/experiments/study_runs.h"
+#include "tests/experiments/runner/timed_study.h"
 
 namespace irk {
 namespace {
@@ -245,20 +244,9 @@ refine_most = 64
 }
 
 TEST(Timing, TimesSuccessfulRunsOnce) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  Study study = small();
-  study.timing = {true, 1e-4, 3, 0.5, 3};
-  runStudy(study, options(folder, 2), quiet);
-  const auto file = folder.path() / "small" / "runs.csv";
-  store::Store store(file.parent_path(), study.id, store::Use::kWrite, {}, quiet);
-  const RunKeys keys = runKeys(study, {});
-  const auto time = [&] {
-    timeStudy(study, keys, store, {}, quiet);
-    store.exportTables(keys, quiet);
-    return readTable(file);
-  };
-  const Table read = time();
+  TimedStudy timed(kSmallStudy);
+  timed.study.timing = {true, 1e-4, 3, 0.5, 3};
+  const Table read = timed.time();
   for (const auto& row : read.rows) {
     const double repetitions = numberAt(read, row, "cpu_runs");
     if (!succeededAt(read, row)) {
@@ -271,9 +259,9 @@ TEST(Timing, TimesSuccessfulRunsOnce) {
     EXPECT_GE(numberAt(read, row, "cpu_spread"), 0);
   }
   // A second pass has nothing to time. With more repetitions only the missing ones are measured.
-  EXPECT_EQ(time().rows, read.rows);
-  study.timing.repetitions = 5;
-  const Table again = time();
+  EXPECT_EQ(timed.time().rows, read.rows);
+  timed.study.timing.repetitions = 5;
+  const Table again = timed.time();
   ASSERT_EQ(again.rows.size(), read.rows.size());
   const auto all = read.column("cpu_all");
   for (std::size_t i = 0; i < again.rows.size(); ++i) {

@@ -13,11 +13,10 @@
 #include "experiments/analyses/results.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/runner/cores/processors.h"
-#include "experiments/runner/timing.h"
 #include "experiments/tables/environment.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/runner/timed_study.h"
 #include "tests/experiments/shared_count.h"
-#include "tests/experiments/study_runs.h"
 
 namespace irk {
 namespace {
@@ -39,57 +38,40 @@ methods = "radau_iia_3"
 tolerances = [1e-4]
 )";
 
-/// A study whose runs are made; `time` measures them.
-class TimedAtOnce : public testing::Test {
+class TimedAtOnce : public testing::Test, public TimedStudy {
  protected:
-  TimedAtOnce() : study_(parseStudy(kTwoBlocks, "small.toml", StudyVariant::kFull)) {
-    options_.results = folder_.path();
-    options_.jobs = 1;
-    before_ = runStudy(study_, options_, told_);
-  }
+  TimedAtOnce() : TimedStudy(kTwoBlocks) {}
   void SetUp() override {
     if (cores::physicalCores().size() < 2) GTEST_SKIP() << "this process may use one core only";
   }
-
-  Table time(int cores, const TimeCall& time_call = timeCall) {
-    told_.str("");
-    store::Store store(folder_.path() / "small", study_.id, store::Use::kWrite, {}, told_);
-    const RunKeys keys = runKeys(study_, options_);
-    timeStudy(study_, keys, store, {.host = 0, .hosts = 1, .cores = cores}, told_, time_call);
-    store.exportTables(keys, told_);
-    return readTable(store.folder() / "runs.csv");
+  Table timeOn(int cores, const TimeCall& time_call = timeCall) {
+    return time({.host = 0, .hosts = 1, .cores = cores}, time_call);
   }
   static std::vector<std::string> columnOf(const Table& table, std::string_view column) {
     std::vector<std::string> cells;
     for (const auto& row : table.rows) cells.push_back(textAt(table, row, column));
     return cells;
   }
-
-  TemporaryFolder folder_;
-  std::ostringstream told_;
-  Study study_;
-  RunnerOptions options_;
-  Table before_;
 };
 
 TEST_F(TimedAtOnce, RowsAreThoseOfOneCoreExceptForTimes) {
-  const Table after = time(2);
+  const Table after = timeOn(2);
   ASSERT_EQ(after.rows.size(), 6u);
   for (std::size_t i = 0; i < after.rows.size(); ++i) {
     for (const auto& column : after.columns) {
       if (column.starts_with("cpu_") || column == "date") continue;
-      EXPECT_EQ(textAt(after, after.rows[i], column), textAt(before_, before_.rows[i], column)) << column;
+      EXPECT_EQ(textAt(after, after.rows[i], column), textAt(made, made.rows[i], column)) << column;
     }
     EXPECT_EQ(numberAt(after, after.rows[i], "cpu_runs"), 3);
     EXPECT_GT(numberAt(after, after.rows[i], "cpu_s"), 1e-6);
     EXPECT_GT(numberAt(after, after.rows[i], "cpu_setup_s"), 0);
   }
-  EXPECT_TRUE(containsAll(told_.str(), {"small timing: 2 of", "at once", "18 runs made"})) << told_.str();
-  EXPECT_GE(readTable(folder_.path() / "small/calibrations.csv").rows.size(), 1u);
+  EXPECT_TRUE(containsAll(told.str(), {"small timing: 2 of", "at once", "18 runs made"})) << told.str();
+  EXPECT_GE(readTable(folder.path() / "small/calibrations.csv").rows.size(), 1u);
 }
 
 TEST_F(TimedAtOnce, EachCallHasAProcessOfItsOwn) {
-  const Table after = time(2, [](const auto&, double) { return static_cast<double>(getpid()); });
+  const Table after = timeOn(2, [](const auto&, double) { return static_cast<double>(getpid()); });
   std::set<std::string> processes;
   for (const auto& cell : columnOf(after, "cpu_all")) {
     std::istringstream in(cell);
@@ -101,12 +83,12 @@ TEST_F(TimedAtOnce, EachCallHasAProcessOfItsOwn) {
 
 // One run at a time has threads of its own and is not confined to one core.
 TEST_F(TimedAtOnce, ARunOnSeveralThreadsIsMeasuredAloneInThisProcess) {
-  study_ = parseStudy(
+  study = parseStudy(
       "[timing]\nrepetitions = 1\n[[block]]\nscene = \"beam_chain\"\nsettings = \"m=200\"\nt_end = 1e-3\n"
       "methods = \"radau_iia_2\"\ntolerances = [1e-3]\nthreads = [1, 2]\n",
       "small.toml", StudyVariant::kFull);
-  before_ = runStudy(study_, options_, told_);
-  const Table after = time(2, [](const auto&, double) { return static_cast<double>(getpid()); });
+  made = runStudy(study, options, told);
+  const Table after = timeOn(2, [](const auto&, double) { return static_cast<double>(getpid()); });
   ASSERT_EQ(after.rows.size(), 2u);
   for (const auto& row : after.rows) {
     const bool here = numberAt(after, row, "cpu_s") == static_cast<double>(getpid());
@@ -115,23 +97,23 @@ TEST_F(TimedAtOnce, ARunOnSeveralThreadsIsMeasuredAloneInThisProcess) {
 }
 
 TEST_F(TimedAtOnce, TheNumberOfCoresStandsBesideTheTimes) {
-  time(2);
-  const auto runs = folder_.path() / "small/runs.csv";
+  timeOn(2);
+  const auto runs = folder.path() / "small/runs.csv";
   EXPECT_EQ(timingCores(runs), "2 on " + hostName());
-  const Table trials = readTable(folder_.path() / "small/timing_cores.csv");
+  const Table trials = readTable(folder.path() / "small/timing_cores.csv");
   ASSERT_EQ(trials.rows.size(), 1u);
   EXPECT_EQ(textAt(trials, trials.rows[0], "cores_at_once"), "2");
   EXPECT_EQ(textAt(trials, trials.rows[0], "taken"), "1");
-  study_.timing.repetitions = 4;
-  time(1);
+  study.timing.repetitions = 4;
+  timeOn(1);
   EXPECT_EQ(timingCores(runs), "1 or 2 in different passes on " + hostName());
-  time(1);
-  EXPECT_EQ(readTable(folder_.path() / "small/timing_cores.csv").rows.size(), 2u) << "nothing was left to time";
+  timeOn(1);
+  EXPECT_EQ(readTable(folder.path() / "small/timing_cores.csv").rows.size(), 2u) << "nothing was left to time";
 }
 
 TEST_F(TimedAtOnce, CalibrationFindsTheNumber) {
-  time(0);
-  const Table trials = readTable(folder_.path() / "small/timing_cores.csv");
+  timeOn(0);
+  const Table trials = readTable(folder.path() / "small/timing_cores.csv");
   ASSERT_GE(trials.rows.size(), 2u);
   EXPECT_EQ(textAt(trials, trials.rows[0], "cores_at_once"), "1");
   EXPECT_EQ(textAt(trials, trials.rows[1], "cores_at_once"), "2");
@@ -147,8 +129,8 @@ TEST_F(TimedAtOnce, CalibrationFindsTheNumber) {
 TEST_F(TimedAtOnce, ARunWhoseProcessDiesSaysWhy) {
   for (const int cores : {1, 2}) {
     const SharedCount calls;
-    const Table after = time(cores, [&](const auto& call, double min_time_s) {
-      if (min_time_s < study_.timing.min_time_s) return 1e-5;
+    const Table after = timeOn(cores, [&](const auto& call, double min_time_s) {
+      if (min_time_s < study.timing.min_time_s) return 1e-5;
       call();
       if (calls.add() == 2) cores == 1 ? throw std::runtime_error("out of luck") : raise(SIGKILL);
       return 2e-5;
@@ -159,22 +141,22 @@ TEST_F(TimedAtOnce, ARunWhoseProcessDiesSaysWhy) {
       EXPECT_GT(numberAt(after, row, "error"), 0);
       const auto& detail = textAt(after, row, "detail");
       if (detail.empty()) {
-        EXPECT_EQ(numberAt(after, row, "cpu_runs"), study_.timing.repetitions);
+        EXPECT_EQ(numberAt(after, row, "cpu_runs"), study.timing.repetitions);
         continue;
       }
       ++failed;
       const char* const cause = cores == 1 ? "not timed: out of luck" : "not timed: its process was ended by signal 9";
       EXPECT_NE(detail.find(cause), detail.npos) << detail;
-      EXPECT_LT(numberAt(after, row, "cpu_runs"), study_.timing.repetitions);
+      EXPECT_LT(numberAt(after, row, "cpu_runs"), study.timing.repetitions);
     }
     EXPECT_EQ(failed, 1u);
-    EXPECT_NE(told_.str().find("1 run could not be timed"), std::string::npos) << told_.str();
+    EXPECT_NE(told.str().find("1 run could not be timed"), std::string::npos) << told.str();
     // The next pass tries again.
-    const Table again = time(cores);
-    EXPECT_EQ(columnOf(again, "cpu_runs"), std::vector<std::string>(6, std::to_string(study_.timing.repetitions)));
+    const Table again = timeOn(cores);
+    EXPECT_EQ(columnOf(again, "cpu_runs"), std::vector<std::string>(6, std::to_string(study.timing.repetitions)));
     EXPECT_EQ(columnOf(again, "detail"), std::vector<std::string>(6, ""));
-    EXPECT_EQ(told_.str().find("could not"), std::string::npos);
-    study_.timing.repetitions += 3;
+    EXPECT_EQ(told.str().find("could not"), std::string::npos);
+    study.timing.repetitions += 3;
   }
 }
 
@@ -184,8 +166,8 @@ TEST_F(TimedAtOnce, AnInterruptLosesNoFinishedTime) {
   std::size_t kept = 0;
   {
     const InterruptScope interrupts;
-    const Table after = time(2, [&](const auto&, double min_time_s) {
-      if (min_time_s >= study_.timing.min_time_s && calls.add() == 0) kill(here, SIGINT);
+    const Table after = timeOn(2, [&](const auto&, double min_time_s) {
+      if (min_time_s >= study.timing.min_time_s && calls.add() == 0) kill(here, SIGINT);
       usleep(50'000);
       return 2e-5;
     });
@@ -195,7 +177,7 @@ TEST_F(TimedAtOnce, AnInterruptLosesNoFinishedTime) {
   EXPECT_GE(kept, 1u) << "what was under way is finished and kept";
   EXPECT_LT(kept, 6u) << "nothing new is begun";
   const InterruptScope uninterrupted;  // the flag is false again
-  EXPECT_EQ(columnOf(time(2), "cpu_runs"), std::vector<std::string>(6, "3"));
+  EXPECT_EQ(columnOf(timeOn(2), "cpu_runs"), std::vector<std::string>(6, "3"));
 }
 
 TEST(TimingCoresOption, IsCheckedBeforeTheFirstRun) {

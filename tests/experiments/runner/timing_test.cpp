@@ -6,15 +6,13 @@
 #include <chrono>
 #include <functional>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "experiments/base/clock.h"
 #include "experiments/runner/status.h"
-#include "experiments/study/study_reader.h"
-#include "tests/experiments/study_runs.h"
+#include "tests/experiments/runner/timed_study.h"
 
 namespace irk {
 namespace {
@@ -94,26 +92,10 @@ methods = "radau_iia_3"
 tolerances = [1e-4, 1e-7]
 )";
 
-// Times the study and reads what is exported.
-Table timed(const Study& study, store::Store& store, const TimeCall& time_call = timeCall) {
-  std::ostringstream quiet;
-  const RunKeys keys = runKeys(study, {});
-  timeStudy(study, keys, store, {}, quiet, time_call);
-  store.exportTables(keys, quiet);
-  return readTable(store.folder() / "runs.csv");
-}
-
 TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  Study study = parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  options.jobs = 1;
-  runStudy(study, options, quiet);
-  study.timing = {true, 1e-3, 5, 10, 20};
-  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  const Table read = timed(study, store);
+  TimedStudy timed(kTimedStudy);
+  timed.study.timing = {true, 1e-3, 5, 10, 20};
+  const Table read = timed.time();
   ASSERT_EQ(read.rows.size(), 2u);
   for (const auto& row : read.rows) {
     const double least = numberAt(read, row, "cpu_s"), median = numberAt(read, row, "cpu_median_s");
@@ -129,47 +111,33 @@ TEST(TimeStudy, KeepsMinimumMedianAndSpreadApart) {
 
 // Hosts that time at the same time share the series.
 TEST(TimeStudy, HostsShareTheSeries) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  Study study = parseStudy(
+  TimedStudy timed(
       "[[block]]\nscene = \"kepler\"\nt_end = 0.1\nmethods = [\"gauss_1\", \"gauss_2\", \"gauss_3\"]\n"
-      "tolerances = [1e-3, 1e-4]\n",
-      "small.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  options.jobs = 1;
-  runStudy(study, options, quiet);
-  study.timing = {true, 1e-5, 2, 10, 20};
-  const RunKeys keys = runKeys(study, {});
-  const auto repetitions = [&](const store::Store& store) {
+      "tolerances = [1e-3, 1e-4]\n");
+  timed.study.timing = {true, 1e-5, 2, 10, 20};
+  const auto repetitions = [&] {
     std::vector<int> all;
-    keys.forEach([&](std::uint64_t key, const std::string&) { all.push_back(store.runs().find(key)->repetitions); });
+    const store::Store store = timed.open();
+    runKeys(timed.study, {}).forEach([&](std::uint64_t key, const std::string&) {
+      all.push_back(store.runs().find(key)->repetitions);
+    });
     return all;
   };
-  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  timeStudy(study, keys, store, {.host = 1, .hosts = 2}, quiet);
-  EXPECT_EQ(repetitions(store), (std::vector<int>{0, 0, 2, 2, 0, 0}));
-  timeStudy(study, keys, store, {.host = 0, .hosts = 2}, quiet);
-  EXPECT_EQ(repetitions(store), (std::vector<int>{2, 2, 2, 2, 2, 2}));
+  timed.time({.host = 1, .hosts = 2});
+  EXPECT_EQ(repetitions(), (std::vector<int>{0, 0, 2, 2, 0, 0}));
+  timed.time({.host = 0, .hosts = 2});
+  EXPECT_EQ(repetitions(), (std::vector<int>{2, 2, 2, 2, 2, 2}));
 }
 
 // The times of a study's runs by their ends; 0: not timed.
 std::map<double, double> timedEnds(const std::string& ends) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  Study study = parseStudy(
-      "[[block]]\nscene = \"kepler\"\nmethods = \"radau_iia_3\"\ntolerances = [1e-4]\nt_end = [" + ends + "]\n",
-      "small.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  options.jobs = 1;
-  runStudy(study, options, quiet);
-  study.timing = {true, 1e-5, 1, 10, 20};
-  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
+  TimedStudy timed("[[block]]\nscene = \"kepler\"\nmethods = \"radau_iia_3\"\ntolerances = [1e-4]\nt_end = [" + ends +
+                   "]\n");
+  timed.study.timing = {true, 1e-5, 1, 10, 20};
   std::map<double, double> times;
-  const Table runs = timed(study, store);
+  const Table runs = timed.time();
   for (const auto& row : runs.rows) times[numberAt(runs, row, "t_end")] = numberAt(runs, row, "cpu_runs");
-  EXPECT_EQ(statusOf(study, options, store).to_time, 0u) << "status counts what is timed";
+  EXPECT_EQ(statusOf(timed.study, timed.options, timed.open()).to_time, 0u) << "status counts what is timed";
   return times;
 }
 
@@ -186,27 +154,45 @@ TEST(TimeStudy, TimesTheLastOfTenEnds) {
   for (const auto& [end, runs] : both) EXPECT_EQ(runs, end == -0.1 || end == 0.1 ? 1 : 0) << end;
 }
 
-// Long runs are repeated once; the longest keep the time of the accuracy run; failed runs have no time.
-TEST(TimeStudy, TimesByTheLengthOfTheRun) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  Study study = parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull);
-  RunnerOptions options;
-  options.results = folder.path();
-  options.jobs = 1;
-  const Table runs = runStudy(study, options, quiet);
-  store::Store store(folder.path() / "small", study.id, store::Use::kWrite, {}, quiet);
-  int request = 1;
-  const auto repetitions = [&](const char* cpu, const char* outcome) {
-    for (TableRow row : runs.rows) {
-      row[runs.column("cpu_s")] = cpu;
-      row[runs.column("outcome")] = outcome;
-      row[runs.column("remade")] = std::to_string(request);  // replaces the rows before
+/// The runs of a small study with a made-up clock.
+class MadeUpTimes : public testing::Test, public TimedStudy {
+ protected:
+  MadeUpTimes() : TimedStudy(kTimedStudy) { study.timing = {true, 1e-3, 3, 0.5, 3}; }
+
+  // Stores new rows for the runs: with this time of their accuracy runs, the first with the first outcome.
+  void setAccuracy(const char* seconds, const char* outcome, const char* of_others) {
+    store::Store store = open();
+    ++request_;
+    for (TableRow row : made.rows) {
+      row[made.column("cpu_s")] = seconds;
+      row[made.column("outcome")] = row.front() == made.rows.front().front() ? outcome : of_others;
+      row[made.column("remade")] = std::to_string(request_);  // replaces the rows before
       store.addTimes(row);
     }
-    ++request;
-    study.timing = {true, 1e-4, 3, 0.5, 3};
-    const Table table = timed(study, store, [&](const auto&, double) { return std::stod(cpu); });
+  }
+  void setAccuracyTime(const char* seconds) { setAccuracy(seconds, "success", "max_steps"); }
+
+  // The cells cpu_all of the first run after a start of the program, which measures these times in turn.
+  std::string allAfter(const std::vector<double>& seconds) {
+    std::size_t next = 0;
+    const Table table = time({.host = 0, .hosts = 1}, [&](const auto&, double min_time_s) {
+      if (min_time_s < study.timing.min_time_s) return 1e-3;  // the set-up
+      EXPECT_LT(next, seconds.size()) << "one time too many";
+      return next < seconds.size() ? seconds[next++] : 1.0;
+    });
+    EXPECT_EQ(next, seconds.size());
+    return textAt(table, table.rows.front(), "cpu_all");
+  }
+
+ private:
+  int request_ = 0;
+};
+
+// Long runs are repeated once; the longest keep the time of the accuracy run; failed runs have no time.
+TEST_F(MadeUpTimes, AreThoseForTheLengthOfTheRun) {
+  const auto repetitions = [&](const char* cpu, const char* outcome) {
+    setAccuracy(cpu, outcome, outcome);
+    const Table table = time({}, [&](const auto&, double) { return std::stod(cpu); });
     return numberAt(table, table.rows.front(), "cpu_runs");
   };
   EXPECT_EQ(repetitions("3.5", "success"), 0);
@@ -214,51 +200,6 @@ TEST(TimeStudy, TimesByTheLengthOfTheRun) {
   EXPECT_EQ(repetitions("0.6", "success"), 1);
   EXPECT_EQ(repetitions("0.4", "success"), 3);
 }
-
-/// Stores the runs of a small study, the first one with a made-up accuracy time, and times it with a made-up clock.
-class MadeUpTimes : public testing::Test {
- protected:
-  MadeUpTimes() : study_(parseStudy(kTimedStudy, "small.toml", StudyVariant::kFull)) {
-    RunnerOptions options;
-    options.results = folder_.path();
-    options.jobs = 1;
-    made_ = runStudy(study_, options, quiet_);
-    study_.timing = {true, 1e-3, 3, 0.5, 3};
-  }
-
-  // The cells cpu_all of the first run after a start of the program, which measures these times in turn.
-  std::string allAfter(const std::vector<double>& seconds) {
-    store::Store store(folder_.path() / "small", study_.id, store::Use::kWrite, {}, quiet_);
-    const RunKeys keys = runKeys(study_, {});
-    std::size_t next = 0;
-    timeStudy(study_, keys, store, {.host = 0, .hosts = 1}, quiet_, [&](const auto&, double min_time_s) {
-      if (min_time_s < study_.timing.min_time_s) return 1e-3;  // the set-up
-      EXPECT_LT(next, seconds.size()) << "one time too many";
-      return next < seconds.size() ? seconds[next++] : 1.0;
-    });
-    EXPECT_EQ(next, seconds.size());
-    store.exportTables(keys, quiet_);
-    const Table table = readTable(folder_.path() / "small/runs.csv");
-    return textAt(table, table.rows.front(), "cpu_all");
-  }
-
-  // Stores new rows for both runs: the first with this time of its accuracy run, the second as failed.
-  void setAccuracyTime(const char* seconds) {
-    store::Store store(folder_.path() / "small", study_.id, store::Use::kWrite, {}, quiet_);
-    for (TableRow row : made_.rows) {
-      const bool first = row == made_.rows.front();
-      row[made_.column("cpu_s")] = seconds;
-      if (!first) row[made_.column("outcome")] = "max_steps";
-      row[made_.column("remade")] = "1";  // replaces the rows before
-      store.addTimes(row);
-    }
-  }
-
-  TemporaryFolder folder_;
-  std::ostringstream quiet_;
-  Study study_;
-  Table made_;
-};
 
 TEST_F(MadeUpTimes, OneSlowFirstMeasurementDoesNotEndTheRepetitions) {
   setAccuracyTime("0.4");
@@ -291,9 +232,9 @@ TEST_F(MadeUpTimes, LongRunsAreMeasuredOnce) {
 // A start that was killed after its first measurement.
 TEST_F(MadeUpTimes, AResumeMeasuresWhatIsMissing) {
   setAccuracyTime("0.4");
-  study_.timing.repetitions = 1;
+  study.timing.repetitions = 1;
   EXPECT_EQ(allAfter({0.45}), "0.45");
-  study_.timing.repetitions = 3;
+  study.timing.repetitions = 3;
   EXPECT_EQ(allAfter({0.46, 0.44}), "0.45 0.46 0.44");
 }
 
