@@ -249,36 +249,12 @@ TEST(Peers, ASwitchingFunctionThatIsNotFiniteEndsTheRun) {
   }
 }
 
-// Falls from rest at height 1 with g = 2 and keeps half of its speed at the floor: it comes to rest at t = 3.
-struct BallAtRest {
-  Sizes sizes() const { return {.nu = 1, .switches = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = p.a[0] + 2;
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* g) const {
-    g[0] = -p.u[0];
-  }
-  template <class T>
-  void onSwitch(Index, const Point<T>&, T*) const {}
-  template <class T>
-  void jump(Index, const Point<T>& p, T* u, T* v, T*) const {
-    u[0] = 0;
-    v[0] = -p.v[0] / 2;
-  }
-};
-
+// A ball that falls for 1 s and keeps half of its speed at the floor comes to rest at t = 3.
 TEST(Peers, SwitchesWithoutEndAreAnOutcome) {
-  Scene<double> scene;
-  scene.id = "ball_at_rest";
-  scene.system = [](const SystemOptions& o) { return makeSystem<double>(BallAtRest{}, o); };
-  scene.start = State<double>(scene.sizes());
-  scene.start.u[0] = 1;
-  scene.scale = Vec<double>::Ones(2);
+  const auto scene = makeScene<double>("bouncing_ball", {{"e", "0.5"}, {"h0", "4.905"}});
   for (const auto& peer : builtinPeers()) {
     if (!peer.finds_roots) continue;
-    PeerIntegrator integrator(peer, scene, peerSpec(peer.id, "scene=stick_slip;discontinuity=locate"));
+    PeerIntegrator integrator(peer, scene, peerSpec(peer.id, "scene=bouncing_ball;discontinuity=locate"));
     const auto before = integrator.integrate(scene.start, 2.5);
     EXPECT_EQ(before.outcome, Outcome::kSuccess) << peer.id << ": " << before.detail;
     const auto after = integrator.integrate(scene.start, 5);
