@@ -40,6 +40,9 @@ class Drawing {
     writeTable(folder_.path() / name, table);
   }
 
+  /// Writes a table that is given as it stands in the file, below its head.
+  void put(const std::string& name, const std::string& csv) const { folder_.write(name, "# study: made_up\n" + csv); }
+
   Svg draw(const std::string& script, const std::string& options) {
     const auto out = folder_.path() / fmt::format("figure_{}", ++count_);
     std::ostringstream err;

@@ -29,19 +29,9 @@ TEST(FigureCurves, ErrorVsStep) {
   add("gauss", 2, 3);
   drawing.put("runs.csv", kRunColumns, rows);
   drawing.put("orders.csv",
-              {"scene", "settings", "formulation", "method", "component", "power_of", "family", "stages", "order",
-               "theory", "confidence", "h_min", "h_max", "verdict"},
-              {{{"scene", "riccati_tracking"},
-                {"settings", ""},
-                {"component", "x"},
-                {"power_of", "h"},
-                {"family", "radau_iia"},
-                {"stages", "2"},
-                {"order", "3.1"},
-                {"theory", "3"},
-                {"h_min", "0.001"},
-                {"h_max", "0.1"},
-                {"verdict", "agrees"}}});
+              R"(scene,settings,formulation,method,component,power_of,family,stages,order,theory,h_min,h_max,verdict
+riccati_tracking,,nan,nan,x,h,radau_iia,2,3.1,3,0.001,0.1,agrees
+)");
   for (const std::string component : {"x", "u"}) {
     const Svg svg =
         drawing.draw("error_vs_step.gp", fmt::format("families='radau_iia gauss'; component='{}'", component));
@@ -67,15 +57,12 @@ TEST(FigureCurves, ErrorVsStep) {
 
 TEST(FigureCurves, EstimateRatio) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* group, double doubling, double richardson) {
-    rows.push_back({{"group", group}, {"doubling", exact(doubling)}, {"richardson", exact(richardson)}, {"t", "1"}});
-  };
-  add("u", 1, 10);
-  add("u", 2, 20);
-  add("v", 0.5, 0.1);
-  add("v", 4, 0.2);
-  drawing.put("estimates.csv", {"t", "group", "doubling", "richardson"}, rows);
+  drawing.put("estimates.csv", R"(t,group,doubling,richardson
+1,u,1,10
+1,u,2,20
+1,v,0.5,0.1
+1,v,4,0.2
+)");
   const Svg svg = drawing.draw("estimate_ratio.gp", "");
   // Sorted from the largest: half of the steps lie above it.
   expectPoints(svg.line('a', 1, kLog, kLog), {{2, 0.5}, {1, 1}}, "doubling u", 2e-2);
@@ -86,19 +73,16 @@ TEST(FigureCurves, EstimateRatio) {
 
 TEST(FigureCurves, Contraction) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* scene, const char* iterations, double c1, double c2) {
-    rows.push_back({{"scene", scene},
-                    {"settings", ""},
-                    {"iterations", iterations},
-                    {"c1", exact(c1)},
-                    {"c2", exact(c2)},
-                    {"c3", "nan"}});
-  };
-  for (const double c : {0.1, 0.2, 0.4}) add("pendulum", "4", c, c / 10);
-  add("pendulum", "3", 5, 5);  // too few iterations to be shown
-  for (const double c : {0.5, 0.5, 0.5}) add("kepler", "5", c, 2 * c);
-  drawing.put("contractions.csv", {"scene", "settings", "iterations", "c1", "c2", "c3", "c4", "c5", "c6"}, rows);
+  // Three iterations are too few to be shown.
+  drawing.put("contractions.csv", R"(scene,settings,iterations,c1,c2,c3,c4,c5,c6
+pendulum,,4,0.1,0.01,nan,nan,nan,nan
+pendulum,,4,0.2,0.02,nan,nan,nan,nan
+pendulum,,4,0.4,0.04,nan,nan,nan,nan
+pendulum,,3,5,5,nan,nan,nan,nan
+kepler,,5,0.5,1,nan,nan,nan,nan
+kepler,,5,0.5,1,nan,nan,nan,nan
+kepler,,5,0.5,1,nan,nan,nan,nan
+)");
   const Svg svg = drawing.draw("contraction.gp", "limit=0.3");
   expectPoints(svg.line('a', 3, kLin, kLog), {{1, 0.2}, {2, 0.02}}, "pendulum's medians", 2e-2);
   expectPoints(svg.line('b', 3, kLin, kLog), {{1, 0.5}, {2, 1}}, "kepler's medians", 2e-2);
@@ -108,34 +92,14 @@ TEST(FigureCurves, Contraction) {
 
 TEST(FigureCurves, FailureMap) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](int s, const char* h, const char* rtol, const char* outcome, const char* error,
-                       const char* error_u) {
-    rows.push_back({{"scene", "pendulum"},
-                    {"settings", ""},
-                    {"family", "radau_iia"},
-                    {"stages", std::to_string(s)},
-                    {"h", h},
-                    {"rtol", rtol},
-                    {"outcome", outcome},
-                    {"error", error},
-                    {"error_u", error_u}});
-  };
-  add(2, "0.1", "1e-3", "success", "1e-3", "1e-12");
-  add(2, "0.01", "1e-4", "success", "1e-12", "1e-3");
-  add(3, "0.1", "1e-3", "newton_failed", "nan", "nan");
-  add(3, "0.01", "1e-4", "success", "1e-3", "1e-6");
-  rows.push_back({{"scene", "pendulum"},  // this family has only one of the two numbers of stages
-                  {"settings", ""},
-                  {"family", "lobatto_iiia"},
-                  {"stages", "3"},
-                  {"h", "0.1"},
-                  {"rtol", "1e-3"},
-                  {"outcome", "success"},
-                  {"error", "1e-6"},
-                  {"error_u", "1e-6"}});
-  drawing.put("runs.csv",
-              {"scene", "settings", "method", "family", "stages", "h", "rtol", "outcome", "error", "error_u"}, rows);
+  // The second family has only one of the two numbers of stages.
+  drawing.put("runs.csv", R"(scene,settings,method,family,stages,h,rtol,outcome,error,error_u
+pendulum,,nan,radau_iia,2,0.1,1e-3,success,1e-3,1e-12
+pendulum,,nan,radau_iia,2,0.01,1e-4,success,1e-12,1e-3
+pendulum,,nan,radau_iia,3,0.1,1e-3,newton_failed,nan,nan
+pendulum,,nan,radau_iia,3,0.01,1e-4,success,1e-3,1e-6
+pendulum,,nan,lobatto_iiia,3,0.1,1e-3,success,1e-6,1e-6
+)");
   const auto cellsOf = [](const Svg& svg) {  // colour by the labels of the cell
     std::map<std::string, std::string> cells;
     for (const auto& [colour, corners] : svg.curve('a', 1).boxes) {
@@ -163,9 +127,8 @@ TEST(FigureCurves, FailureMap) {
   EXPECT_EQ(svg.occurrences("fill = 'rgb(228, 228, 228)'"), 1) << "the column of the method that there is not";
 }
 
-const std::vector<std::string> kOrderColumns = {"scene",      "settings", "method", "formulation", "component",
-                                                "power_of",   "family",   "stages", "theory",      "order",
-                                                "confidence", "h_min",    "h_max",  "points",      "verdict"};
+const std::string kOrderColumns =
+    "scene,settings,component,power_of,family,stages,method,theory,order,confidence,verdict\n";
 
 // Marks with error bars are drawn twice.
 std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {
@@ -179,25 +142,11 @@ std::vector<SvgPoint> once(const std::vector<SvgPoint>& points) {
 
 TEST(FigureCurves, OrderVsStages) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* component, int s, double order, double theory, const char* verdict) {
-    rows.push_back({{"scene", "kaps"},
-                    {"settings", ""},
-                    {"component", component},
-                    {"power_of", "h"},
-                    {"family", "radau_iia"},
-                    {"stages", std::to_string(s)},
-                    {"order", exact(order)},
-                    {"theory", exact(theory)},
-                    {"confidence", "0.1"},
-                    {"verdict", verdict},
-                    {"points", "13"}});
-  };
-  add("x", 1, 1.2, 1, "agrees");
-  add("x", 2, 2.6, 3, "agrees");
-  add("x", 4, 5.4, 7, "differs");
-  add("z", 2, 9, 9, "agrees");
-  drawing.put("orders.csv", kOrderColumns, rows);
+  drawing.put("orders.csv", kOrderColumns + R"(kaps,,x,h,radau_iia,1,nan,1,1.2,0.1,agrees
+kaps,,x,h,radau_iia,2,nan,3,2.6,0.1,agrees
+kaps,,x,h,radau_iia,4,nan,7,5.4,0.1,differs
+kaps,,z,h,radau_iia,2,nan,9,9,0.1,agrees
+)");
   const Svg svg = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x'");
   expectPoints(svg.line('a', 1, kLin, kLin), {{1, 1}, {2, 3}, {4, 7}}, "theory", 1e-2);
   expectPoints(once(svg.marks('a', 2, kLin, kLin)), {{1, 1.2}, {2, 2.6}, {4, 5.4}}, "measured", 1e-2);
@@ -211,19 +160,16 @@ TEST(FigureCurves, OrderVsStages) {
 // Measured for 2 and 5 stages only: theory is drawn for all, and the legend explains only marks that are there.
 TEST(FigureCurves, TheoryOfOrdersForEveryNumberOfStages) {
   Drawing drawing;
-  const auto row = [](int s, double theory) {
-    return Cells{{"scene", "kaps"},     {"settings", ""},
-                 {"component", "x"},    {"power_of", "h"},
-                 {"family", "gauss"},   {"method", "gauss_" + std::to_string(s)},
-                 {"confidence", "0.1"}, {"stages", std::to_string(s)},
-                 {"points", "13"},      {"theory", exact(theory)},
-                 {"verdict", "agrees"}, {"order", exact(theory)}};
-  };
-  drawing.put("orders.csv", kOrderColumns, {row(2, 2), row(5, 6)});
-  const std::vector<Cells> theory = {row(1, 2), row(2, 2), row(3, 4), row(4, 4), row(5, 6)};
-  drawing.put("order_theory.csv",
-              {"scene", "settings", "method", "formulation", "component", "power_of", "family", "stages", "theory"},
-              theory);
+  drawing.put("orders.csv", kOrderColumns + R"(kaps,,x,h,gauss,2,gauss_2,2,2,0.1,agrees
+kaps,,x,h,gauss,5,gauss_5,6,6,0.1,agrees
+)");
+  drawing.put("order_theory.csv", R"(scene,settings,method,component,power_of,family,stages,theory
+kaps,,gauss_1,x,h,gauss,1,2
+kaps,,gauss_2,x,h,gauss,2,2
+kaps,,gauss_3,x,h,gauss,3,4
+kaps,,gauss_4,x,h,gauss,4,4
+kaps,,gauss_5,x,h,gauss,5,6
+)");
   const Svg svg = drawing.draw("order_vs_stages.gp", "scene='kaps'; components='x'");
   const auto line = svg.line('a', 1, kLin, kLin);
   const auto through = [&](double x, double y) {
@@ -237,28 +183,15 @@ TEST(FigureCurves, TheoryOfOrdersForEveryNumberOfStages) {
 
 TEST(FigureCurves, OrderVsStiffness) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* settings, int s, const char* order, const char* theory = "nan",
-                       const char* verdict = "agrees") {
-    rows.push_back({{"scene", "prothero_robinson"},
-                    {"settings", settings},
-                    {"component", "x"},
-                    {"power_of", "h"},
-                    {"family", "gauss"},
-                    {"stages", std::to_string(s)},
-                    {"order", order},
-                    {"theory", theory},
-                    {"confidence", "0.3"},
-                    {"verdict", verdict}});
-  };
-  add("lambda=-1e2", 2, "3.9");
-  add("lambda=-1e4", 2, "2.5");
-  add("", 2, "2.1", "3");  // -1e8
-  add("lambda=-1e2", 3, "5.9");
-  add("lambda=-1e4", 3, "nan", "nan", "not_measurable");
-  add("", 3, "4.4");
-  add("lambda=-1e8/h", 2, "11");  // no single stiffness
-  drawing.put("orders.csv", kOrderColumns, rows);
+  // Without a setting lambda is -1e8; over h there is no single stiffness.
+  drawing.put("orders.csv", kOrderColumns + R"(prothero_robinson,lambda=-1e2,x,h,gauss,2,nan,nan,3.9,0.3,agrees
+prothero_robinson,lambda=-1e4,x,h,gauss,2,nan,nan,2.5,0.3,agrees
+prothero_robinson,,x,h,gauss,2,nan,3,2.1,0.3,agrees
+prothero_robinson,lambda=-1e2,x,h,gauss,3,nan,nan,5.9,0.3,agrees
+prothero_robinson,lambda=-1e4,x,h,gauss,3,nan,nan,nan,0.3,not_measurable
+prothero_robinson,,x,h,gauss,3,nan,nan,4.4,0.3,agrees
+prothero_robinson,lambda=-1e8/h,x,h,gauss,2,nan,nan,11,0.3,agrees
+)");
   const Svg svg = drawing.draw("order_vs_stiffness.gp", "scene='prothero_robinson'");
   // For each of two numbers of stages: the bars of theory, the lines, the plus signs.
   expectPoints(svg.line('a', 1, kLog, kLin), {{4e7, 3}, {2.5e8, 3}}, "theory", 2e-2);

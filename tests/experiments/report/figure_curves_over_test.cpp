@@ -14,22 +14,13 @@ namespace {
 
 TEST(FigureCurves, OverStages) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* family, int s, double a, double eigenvectors) {
-    rows.push_back({{"family", family},
-                    {"stages", std::to_string(s)},
-                    {"condition_A", exact(a)},
-                    {"condition_eigenvectors", exact(eigenvectors)},
-                    {"error_constant", exact(-1e-3 * a)},
-                    {"order", "99"}});
-  };
-  add("gauss", 2, 10, 300);
-  add("gauss", 4, 100, 20);
-  add("gauss", 6, 700, 5000);
-  add("radau_iia", 2, 20, 60);
-  add("radau_iia", 4, 5, 900);
-  drawing.put("tableaus.csv", {"family", "stages", "order", "error_constant", "condition_A", "condition_eigenvectors"},
-              rows);
+  drawing.put("tableaus.csv", R"(family,stages,order,error_constant,condition_A,condition_eigenvectors
+gauss,2,99,-0.01,10,300
+gauss,4,99,-0.1,100,20
+gauss,6,99,-0.7,700,5000
+radau_iia,2,99,-0.02,20,60
+radau_iia,4,99,-0.005,5,900
+)");
   const Svg svg = drawing.draw("over_stages.gp", "");
   expectPoints(svg.marks('a', 1, kLin, kLog), {{2, 10}, {4, 100}, {6, 700}}, "gauss");
   expectPoints(svg.marks('a', 2, kLin, kLog), {{2, 20}, {4, 5}}, "radau");
@@ -76,25 +67,16 @@ TEST(FigureCurves, OverStep) {
 
 TEST(FigureCurves, Profile) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* target, const char* integrator, double ratio, double fraction,
-                       const char* collection = "all") {
-    rows.push_back({{"collection", collection},
-                    {"target_error", target},
-                    {"integrator", integrator},
-                    {"ratio", exact(ratio)},
-                    {"fraction", exact(fraction)},
-                    {"problems", "55"}});
-  };
-  add("1e-4", "variable", 1, 0.5);
-  add("1e-4", "variable", 10, 0.8);
-  add("1e-4", "cvode_bdf", 2, 0.2);
-  add("1e-4", "cvode_bdf", 50, 0.9);
-  add("1e-8", "variable", 3, 0.3);
-  add("1e-8", "variable", 30, 0.6);
-  add("1e-4", "variable", 4, 0.7, "ivp");
-  add("1e-4", "variable", 40, 0.9, "ivp");
-  drawing.put("profile.csv", {"collection", "target_error", "problems", "integrator", "ratio", "fraction"}, rows);
+  drawing.put("profile.csv", R"(collection,target_error,problems,integrator,ratio,fraction
+all,1e-4,55,variable,1,0.5
+all,1e-4,55,variable,10,0.8
+all,1e-4,55,cvode_bdf,2,0.2
+all,1e-4,55,cvode_bdf,50,0.9
+all,1e-8,55,variable,3,0.3
+all,1e-8,55,variable,30,0.6
+ivp,1e-4,55,variable,4,0.7
+ivp,1e-4,55,variable,40,0.9
+)");
   const Svg svg = drawing.draw("profile.gp", "targets='-4 -8'");
   expectPoints(svg.line('a', 1, kLog, kLin), {{1, 0.5}, {10, 0.5}, {10, 0.8}}, "variable", 2e-2);
   expectPoints(svg.line('a', 2, kLog, kLin), {{2, 0.2}, {50, 0.2}, {50, 0.9}}, "cvode", 2e-2);
@@ -105,27 +87,19 @@ TEST(FigureCurves, Profile) {
 
 TEST(FigureCurves, Scaling) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* method, const char* solver, const char* storage, const char* threads, int n,
-                       double step) {
-    rows.push_back({{"scene", "beam_chain"},
-                    {"method", method},
-                    {"solver", solver},
-                    {"storage", storage},
-                    {"threads", threads},
-                    {"n", std::to_string(n)},
-                    {"step_s", exact(step)},
-                    {"steps", exact(9 / step)}});
+  // A lone mark, as of two threads, is no curve.
+  const auto table = [](const std::string& name, const std::string& cell) {
+    std::string csv = "scene,method,solver,storage,threads,n,steps,step_s" + name + "\n";
+    for (const char* const row :
+         {"radau_iia_3,schur,sparse,1,10,9e5,1e-5", "radau_iia_3,schur,sparse,1,100,45000,2e-4",
+          "radau_iia_3,schur,sparse,1,1000,1285,7e-3", "radau_iia_3,schur,dense,1,10,3e5,3e-5",
+          "radau_iia_3,schur,dense,1,100,180,5e-2", "radau_iia_5,schur,sparse,1,10,225000,4e-5",
+          "radau_iia_5,schur,sparse,1,1000,1500,6e-3", "radau_iia_5,schur,automatic,2,1000,2250,4e-3"}) {
+      csv += "beam_chain," + std::string(row) + cell + "\n";
+    }
+    return csv;
   };
-  add("radau_iia_3", "schur", "sparse", "1", 10, 1e-5);
-  add("radau_iia_3", "schur", "sparse", "1", 100, 2e-4);
-  add("radau_iia_3", "schur", "sparse", "1", 1000, 7e-3);
-  add("radau_iia_3", "schur", "dense", "1", 10, 3e-5);
-  add("radau_iia_3", "schur", "dense", "1", 100, 5e-2);
-  add("radau_iia_5", "schur", "sparse", "1", 10, 4e-5);
-  add("radau_iia_5", "schur", "sparse", "1", 1000, 6e-3);
-  add("radau_iia_5", "schur", "automatic", "2", 1000, 4e-3);  // a lone mark is no curve
-  drawing.put("scaling.csv", {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s"}, rows);
+  drawing.put("scaling.csv", table("", ""));
   const Svg svg = drawing.draw("scaling.gp", "");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{10, 1e-5}, {100, 2e-4}, {1000, 7e-3}}, "sparse");
   expectPoints(svg.marks('a', 3, kLog, kLog), {{10, 3e-5}, {100, 5e-2}}, "dense");
@@ -134,9 +108,7 @@ TEST(FigureCurves, Scaling) {
   EXPECT_EQ(svg.occurrences("2 threads"), 0) << "not drawn, so not in the legend";
 
   // The time that passes says nothing about one thread if other programs run beside it.
-  for (auto& row : rows) row["step_cpu_s"] = exact(2e-5);
-  drawing.put("scaling.csv", {"scene", "method", "solver", "storage", "threads", "n", "steps", "step_s", "step_cpu_s"},
-              rows);
+  drawing.put("scaling.csv", table(",step_cpu_s", ",2e-5"));
   const Svg of_cpu = drawing.draw("scaling.gp", "");
   expectPoints(of_cpu.marks('a', 2, kLog, kLog), {{10, 2e-5}, {100, 2e-5}, {1000, 2e-5}}, "CPU time of one thread");
 }
@@ -167,23 +139,12 @@ TEST(FigureCurves, Parallel) {
 
 TEST(FigureCurves, SceneSolution) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const double t[] = {0, 1, 3, 4};
-  for (int i = 0; i < 4; ++i) {
-    const double x = t[i];
-    rows.push_back({{"t", exact(x)},
-                    {"h", "5"},
-                    {"error", "6"},
-                    {"newton_iterations", "7"},
-                    {"switches", "8"},
-                    {"x", exact(1 + x)},
-                    {"y", exact(9 - 2 * x)},
-                    {"x'", exact(x * x)},
-                    {"y'", exact(3 - x)},
-                    {"lambda", exact(10 + 5 * x)}});
-  }
-  drawing.put("pendulum.radau_iia_5.csv",
-              {"t", "h", "error", "newton_iterations", "switches", "x", "y", "x'", "y'", "lambda"}, rows);
+  drawing.put("pendulum.radau_iia_5.csv", R"(t,h,error,newton_iterations,switches,x,y,x',y',lambda
+0,5,6,7,8,1,9,0,3,10
+1,5,6,7,8,2,7,1,2,15
+3,5,6,7,8,4,3,9,0,25
+4,5,6,7,8,5,1,16,-1,30
+)");
   const Svg svg =
       drawing.draw("scene_solution.gp",
                    "scene='pendulum'; panels='\"positions|x y|1\" \"velocities|x'' y''|1\" \"multiplier|lambda|1\"'");
@@ -201,8 +162,7 @@ TEST(FigureCurves, SceneSolution) {
   near('b', 2, {{0, 3}, {1, 2}, {3, 0}, {4, -1}}, "y'");
   near('c', 1, {{0, 10}, {1, 15}, {3, 25}, {4, 30}}, "lambda");
   // A scene without a layout gets one panel per column, except the columns of the steps.
-  drawing.put("mine.radau_iia_5.csv", {"t", "h", "error", "newton_iterations", "switches", "p"},
-              {{{"t", "0"}, {"h", "9"}, {"p", "1"}}, {{"t", "2"}, {"h", "9"}, {"p", "4"}}});
+  drawing.put("mine.radau_iia_5.csv", "t,h,error,newton_iterations,switches,p\n0,9,nan,nan,nan,1\n2,9,nan,nan,nan,4\n");
   const Svg own = drawing.draw("scene_solution.gp", "scene='mine'");
   expectPoints(own.line('a', 1, kLin, kLin), {{0, 1}, {2, 4}}, "p", 2e-2);
   EXPECT_TRUE(own.panel('b').curves.empty());
@@ -210,27 +170,14 @@ TEST(FigureCurves, SceneSolution) {
 
 TEST(FigureCurves, Shares) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](int n, const char* solver, double residual, double jacobian, double factorization,
-                       double solve) {
-    rows.push_back({{"scene", "ancf_pendulum"},
-                    {"derivatives", "difference_forward"},
-                    {"solver", solver},
-                    {"method", "radau_iia_3"},
-                    {"n", std::to_string(n)},
-                    {"share_residual", exact(residual)},
-                    {"share_jacobian", exact(jacobian)},
-                    {"share_factorization", exact(factorization)},
-                    {"share_solve", exact(solve)},
-                    {"factorization_s", "0.77"}});
-  };
-  add(10, "coupled_dense", 0.4, 0.3, 0.2, 0.1);
-  add(50, "coupled_dense", 0.05, 0.15, 0.75, 0.05);
-  add(10, "schur", 0.1, 0.2, 0.3, 0.4);
-  drawing.put("phases.csv",
-              {"scene", "derivatives", "solver", "method", "n", "factorization_s", "share_residual", "share_jacobian",
-               "share_factorization", "share_solve", "share_update", "share_step", "share_start"},
-              rows, "0");
+  drawing.put(
+      "phases.csv",
+      R"(scene,derivatives,solver,method,n,factorization_s,share_residual,share_jacobian,share_factorization,share_solve,)"
+      R"(share_update,share_step,share_start
+ancf_pendulum,difference_forward,coupled_dense,radau_iia_3,10,0.77,0.4,0.3,0.2,0.1,0,0,0
+ancf_pendulum,difference_forward,coupled_dense,radau_iia_3,50,0.77,0.05,0.15,0.75,0.05,0,0,0
+ancf_pendulum,difference_forward,schur,radau_iia_3,10,0.77,0.1,0.2,0.3,0.4,0,0,0
+)");
   const Svg svg = drawing.draw("shares.gp", "methods='radau_iia_3'");
   const auto heights = [&](char panel, int part) {
     std::map<std::string, std::pair<double, double>> by_size;  // bottom and top, by the labels of the last row

@@ -14,16 +14,10 @@ namespace {
 
 TEST(FigureCurves, StepSize) {
   Drawing drawing;
-  const auto put = [&](const char* name, const std::vector<SvgPoint>& steps) {
-    std::vector<Cells> rows;
-    for (const auto& s : steps) {
-      rows.push_back({{"t", exact(s.x)}, {"h", exact(s.y)}, {"error", "0.5"}, {"newton_iterations", "9"}, {"x", "3"}});
-    }
-    drawing.put(name, {"t", "h", "error", "newton_iterations", "x"}, rows);
-  };
-  put("slider_crank.radau_iia_2.csv", {{0, NAN}, {0.1, 0.1}, {0.4, 0.3}, {1, 0.6}});
-  put("slider_crank.radau_iia_5.csv", {{0, NAN}, {0.01, 0.01}, {0.05, 0.04}, {1, 0.95}});
-  put("other.radau_iia_2.csv", {{0, NAN}, {0.2, 0.2}, {1, 0.8}});
+  const std::string columns = "t,h,error,newton_iterations,x\n0,nan,0.5,9,3\n";
+  drawing.put("slider_crank.radau_iia_2.csv", columns + "0.1,0.1,0.5,9,3\n0.4,0.3,0.5,9,3\n1,0.6,0.5,9,3\n");
+  drawing.put("slider_crank.radau_iia_5.csv", columns + "0.01,0.01,0.5,9,3\n0.05,0.04,0.5,9,3\n1,0.95,0.5,9,3\n");
+  drawing.put("other.radau_iia_2.csv", columns + "0.2,0.2,0.5,9,3\n1,0.8,0.5,9,3\n");
   // The file other.radau_iia_5.csv does not exist: that curve is left out without a warning.
   const Svg svg =
       drawing.draw("step_size.gp", "cases='slider_crank other'; methods='radau_iia_2 radau_iia_5'; marks=\"'0.5'\"");
@@ -55,14 +49,11 @@ TEST(FigureCurves, StepSize) {
 // axis.
 TEST(FigureCurves, Stability) {
   Drawing drawing;
-  const auto root = [](const char* method, const char* family, const char* stages, const char* kind, double re,
-                       double im) {
-    return Cells{{"method", method}, {"family", family}, {"stages", stages},
-                 {"root", kind},     {"re", exact(re)},  {"im", exact(im)}};
-  };
-  drawing.put("stability.csv", {"method", "family", "stages", "root", "re", "im"},
-              {root("radau_iia_1", "radau_iia", "1", "pole", 1, 0), root("gauss_1", "gauss", "1", "zero", -2, 0),
-               root("gauss_1", "gauss", "1", "pole", 2, 0)});
+  drawing.put("stability.csv", R"(method,family,stages,root,re,im
+radau_iia_1,radau_iia,1,pole,1,0
+gauss_1,gauss,1,zero,-2,0
+gauss_1,gauss,1,pole,2,0
+)");
   const Svg svg = drawing.draw("stability.gp", "families='radau_iia gauss'; stages='1'; extent=4");
   // Curves 1 and 2 are the shading of the two halves, curves 3 and 4 the contour.
   for (const int half : {3, 4}) {
@@ -90,13 +81,14 @@ TEST(FigureCurves, Stability) {
 // The widths of the bars are the shares of the runs.
 TEST(FigureCurves, Audit) {
   Drawing drawing;
-  const auto row = [](const char* by, const char* group) {
-    return Cells{{"by", by},       {"group", group}, {"runs", "200"},           {"right", "100"},
-                 {"failed", "60"}, {"wrong", "20"},  {"ill_conditioned", "12"}, {"unjudged", "8"}};
-  };
-  drawing.put("audit_summary.csv", {"by", "group", "runs", "right", "failed", "wrong", "ill_conditioned", "unjudged"},
-              {row("all", "all"), row("scene", "kepler"), row("scene", "hires"), row("configuration", "default"),
-               row("treatment", "locate"), row("family", "gauss")});
+  drawing.put("audit_summary.csv", R"(by,group,runs,right,failed,wrong,ill_conditioned,unjudged
+all,all,200,100,60,20,12,8
+scene,kepler,200,100,60,20,12,8
+scene,hires,200,100,60,20,12,8
+configuration,default,200,100,60,20,12,8
+treatment,locate,200,100,60,20,12,8
+family,gauss,200,100,60,20,12,8
+)");
   const Svg svg = drawing.draw("audit.gp", "");
   const auto width = [&](char panel, int part) {
     double low = 1e300, high = -1e300;

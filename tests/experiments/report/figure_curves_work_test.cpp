@@ -230,70 +230,43 @@ TEST(FigureCurves, WorkOverTime) {
   }
 }
 
-const std::vector<std::string> kCostColumns = {"scene",        "settings", "family", "method",    "stages",
-                                               "target_error", "reached",  "cpu_s",  "residuals", "newton_iterations"};
-
 TEST(FigureCurves, BestCost) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* scene, const char* family, int s, const char* error, double cost) {
-    rows.push_back({{"scene", scene},
-                    {"settings", ""},
-                    {"family", family},
-                    {"stages", std::to_string(s)},
-                    {"target_error", error},
-                    {"reached", "1"},
-                    {"cpu_s", exact(cost)},
-                    {"residuals", exact(7000 / cost)}});
-  };
-  add("pendulum", "radau_iia", 2, "1e-4", 0.01);
-  add("pendulum", "radau_iia", 3, "1e-4", 0.05);
-  add("pendulum", "radau_iia", 2, "1e-6", 0.8);
-  add("pendulum", "radau_iia", 3, "1e-6", 0.1);
-  add("pendulum", "gauss", 2, "1e-4", 0.3);
-  add("pendulum", "gauss", 2, "1e-6", 9);
-  add("kepler", "gauss", 2, "1e-4", 0.02);
-  add("kepler", "gauss", 2, "1e-6", 7);
-  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  const std::string table = R"(scene,settings,family,stages,target_error,reached,cpu_s,residuals
+pendulum,,radau_iia,2,1e-4,1,0.01,7e5
+pendulum,,radau_iia,3,1e-4,1,0.05,1.4e5
+pendulum,,radau_iia,2,1e-6,1,0.8,8750
+pendulum,,radau_iia,3,1e-6,1,0.1,7e4
+pendulum,,gauss,2,1e-4,1,0.3,2e4
+pendulum,,gauss,2,1e-6,1,9,800
+kepler,,gauss,2,1e-4,1,0.02,3.5e5
+kepler,,gauss,2,1e-6,1,7,1000
+)";
+  drawing.put("cpu_at_error.csv", table);
   const Svg svg = drawing.draw("best_cost.gp", "cases='pendulum kepler'");
   expectPoints(svg.marks('a', 1, kLog, kLog), {{1e-6, 0.1}, {1e-4, 0.01}}, "radau");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{1e-6, 9}, {1e-4, 0.3}}, "gauss");
   expectPoints(svg.marks('b', 1, kLog, kLog), {{1e-6, 7}, {1e-4, 0.02}}, "kepler, its only family");
   EXPECT_EQ(svg.occurrences("no run reaches"), 0);
   const Svg other = drawing.draw("best_cost.gp", "cases='pendulum'; cost='residuals'; values='gauss'");
-  expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 7000 / 9.0}, {1e-4, 7000 / 0.3}}, "residuals");
-  rows.push_back({{"scene", "robertson"},
-                  {"settings", ""},
-                  {"family", "gauss"},
-                  {"stages", "2"},
-                  {"target_error", "1e-4"},
-                  {"reached", "0"}});
-  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  expectPoints(other.marks('a', 1, kLog, kLog), {{1e-6, 800}, {1e-4, 2e4}}, "residuals");
+  drawing.put("cpu_at_error.csv", table + "robertson,,gauss,2,1e-4,0,nan,nan\n");
   const Svg empty = drawing.draw("best_cost.gp", "cases='pendulum robertson'");
   EXPECT_EQ(empty.occurrences("no run reaches"), 1) << "an empty panel says why";
 }
 
 TEST(FigureCurves, CpuVsStages) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* settings, int s, const char* error, const char* cost, const char* residuals) {
-    rows.push_back({{"scene", "slider_crank"},
-                    {"settings", settings},
-                    {"family", "radau_iia"},
-                    {"stages", std::to_string(s)},
-                    {"target_error", error},
-                    {"cpu_s", cost},
-                    {"residuals", residuals}});
-  };
-  add("", 2, "1e-4", "0.01", "900");
-  add("", 3, "1e-4", "0.02", "500");
-  add("", 5, "1e-4", "0.05", "100");
-  add("", 2, "1e-8", "nan", "nan");
-  add("", 3, "1e-8", "3", "7000");
-  add("", 5, "1e-8", "0.7", "2000");
-  add("off=1", 2, "1e-4", "0.4", "40");
-  add("off=1", 10, "1e-4", "0.9", "60");
-  drawing.put("cpu_at_error.csv", kCostColumns, rows);
+  drawing.put("cpu_at_error.csv", R"(scene,settings,family,method,stages,target_error,reached,cpu_s,residuals
+slider_crank,,radau_iia,nan,2,1e-4,nan,0.01,900
+slider_crank,,radau_iia,nan,3,1e-4,nan,0.02,500
+slider_crank,,radau_iia,nan,5,1e-4,nan,0.05,100
+slider_crank,,radau_iia,nan,2,1e-8,nan,nan,nan
+slider_crank,,radau_iia,nan,3,1e-8,nan,3,7000
+slider_crank,,radau_iia,nan,5,1e-8,nan,0.7,2000
+slider_crank,off=1,radau_iia,nan,2,1e-4,nan,0.4,40
+slider_crank,off=1,radau_iia,nan,10,1e-4,nan,0.9,60
+)");
   const Svg svg = drawing.draw("cpu_vs_stages.gp", "cases='slider_crank slider_crank:off=1'");
   expectPoints(svg.marks('a', 1, kLog, kLog), {{2, 0.01}, {3, 0.02}, {5, 0.05}}, "1e-4");
   expectPoints(svg.marks('a', 2, kLog, kLog), {{3, 3}, {5, 0.7}}, "1e-8");
@@ -311,24 +284,14 @@ TEST(FigureCurves, CpuVsStages) {
 
 TEST(FigureCurves, Energy) {
   Drawing drawing;
-  std::vector<Cells> rows;
-  const auto add = [&](const char* summation, double t, double error) {
-    rows.push_back({{"scene", "kepler"},
-                    {"method", "gauss_8"},
-                    {"summation", summation},
-                    {"t", exact(t)},
-                    {"energy_error", exact(error)},
-                    {"scatter", "3e-16"},
-                    {"h", "77"},
-                    {"steps", "5"}});
-  };
-  add("plain", 1, 2e-16);
-  add("plain", 2, 9e-16);
-  add("plain", 4, 5e-16);
-  add("compensated", 1, 1e-16);
-  add("compensated", 2, 0.5e-16);
-  add("compensated", 4, 1.5e-16);
-  drawing.put("energy.csv", {"scene", "method", "summation", "t", "h", "steps", "energy_error", "scatter"}, rows);
+  drawing.put("energy.csv", R"(scene,method,summation,t,h,steps,energy_error,scatter
+kepler,gauss_8,plain,1,77,5,2e-16,3e-16
+kepler,gauss_8,plain,2,77,5,9e-16,3e-16
+kepler,gauss_8,plain,4,77,5,5e-16,3e-16
+kepler,gauss_8,compensated,1,77,5,1e-16,3e-16
+kepler,gauss_8,compensated,2,77,5,0.5e-16,3e-16
+kepler,gauss_8,compensated,4,77,5,1.5e-16,3e-16
+)");
   const Svg svg = drawing.draw("energy.gp", "cases='kepler:gauss_8'");
   expectPoints(svg.line('a', 1, kLin, kLin), {{1, 2}, {2, 9}, {4, 5}}, "plain");
   expectPoints(svg.line('a', 2, kLin, kLin), {{1, 1}, {2, 0.5}, {4, 1.5}}, "compensated", 2e-2);
