@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,10 @@ int publishCommand(const PublishOptions& options, Streams streams);
 /// `what`: scenes, methods, studies, analyses, strategies, numbers, constants, columns, or empty for all. `scenes`
 /// belongs to the first. Throws Misuse.
 int listCommand(const std::string& what, const SceneList& scenes, Streams streams);
+
+/// The tables of experiments/guide/tables.md, which is embedded at build time. Markdown: for each a heading `## FILE`,
+/// what a row is, and a line per column with its unit and meaning.
+extern const std::string_view kColumnsPage;
 
 /// Writes the file `file` for a scene of the user's own, which runs as it is. `kind`: scene. Throws Misuse if the file
 /// exists.

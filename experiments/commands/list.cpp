@@ -3,7 +3,6 @@
 
 #include "core/base/constants.h"
 #include "core/base/text.h"
-#include "experiments/commands/columns/column_texts.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/list_scenes.h"
 #include "experiments/runs/fields.h"
@@ -63,13 +62,15 @@ void listConstants(std::ostream& out) {
   }
 }
 
+void listColumns(std::ostream& out) { out << kColumnsPage; }
+
 struct List {
   const char* id;
   void (*print)(std::ostream&);
 };
 constexpr List kLists[] = {{"scenes", listScenes},       {"methods", listMethods},       {"studies", listStudies},
                            {"analyses", listAnalyses},   {"strategies", listStrategies}, {"numbers", listNumbers},
-                           {"constants", listConstants}, {"columns", printColumns}};
+                           {"constants", listConstants}, {"columns", listColumns}};
 
 }  // namespace
 

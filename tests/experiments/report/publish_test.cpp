@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "experiments/base/failure.h"
-#include "experiments/commands/columns/column_texts.h"
 #include "experiments/compare/publications.h"
 #include "experiments/report/publish/published_page.h"
 #include "experiments/report/publish/published_runs.h"
 #include "experiments/report/publish/published_tables.h"
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
+#include "tests/experiments/columns_page.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
@@ -108,22 +108,17 @@ TEST_F(Publish, DrawsTenToFifteenFiguresOfTheReport) {
 
 // The key of a table consists of columns that it has.
 TEST_F(Publish, TablesHaveTheirKeys) {
+  const auto tables = pageTables();
   for (const auto& table : report::publishedTables()) {
-    const auto tableOf = [&](std::span<const TableText> texts) {
-      return std::ranges::find_if(texts, [&](const TableText& text) {
-        return text.file == std::string(table.name) + ".csv" ||
-               text.file == "report/answers_" + std::string(table.name) + ".csv";
-      });
-    };
-    const auto summaries = summaryTableTexts(), others = tableTexts();
-    const auto in_summaries = tableOf(summaries), in_others = tableOf(others);
-    ASSERT_TRUE(in_summaries != summaries.end() || in_others != others.end()) << table.name;
-    // `orders` is the name of an answer and of a table of a study.
-    const auto& text = in_summaries != summaries.end() ? *in_summaries : *in_others;
+    // `orders` is the name of an answer and of a table of a study: the page has the answer later.
+    const std::string name(table.name);
+    const auto text = std::find_if(tables.rbegin(), tables.rend(), [&](const PageTable& one) {
+      return one.file == name + ".csv" || one.file == "report/answers_" + name + ".csv";
+    });
+    ASSERT_NE(text, tables.rend()) << name;
     std::istringstream keys{std::string(table.key)};
     for (std::string key; keys >> key;) {
-      EXPECT_NE(std::ranges::find(text.columns, key, &ColumnText::name), text.columns.end())
-          << table.name << ' ' << key;
+      EXPECT_NE(std::ranges::find(text->columns, key), text->columns.end()) << name << ' ' << key;
     }
   }
 }
