@@ -111,11 +111,7 @@ StudyStatus statusOf(const Study& study, const RunnerOptions& options, const sto
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (!keys.isLeftOut(i)) counting.count(study.series[i], keys[i]);
   }
-  StudyStatus status = counting.result();
-  if (status.all.planned > 0 && status.all.finished == status.all.planned) {
-    status.plan = planOf(study, keys, store.runs(), {16, 256});
-  }
-  return status;
+  return counting.result();
 }
 
 std::string textOf(const StudyStatus& status) {
@@ -132,7 +128,6 @@ std::string textOf(const StudyStatus& status) {
   const std::size_t missing = status.all.planned - status.all.finished;
   if (missing == 0) {
     text += "  all runs are finished\n";
-    if (status.plan) text += textOf(*status.plan);
   } else if (std::isnan(status.seconds_left)) {
     text += fmt::format("  {} runs to make; the time needed is unknown, as none has been made\n", missing);
   } else {

@@ -3,13 +3,11 @@
 
 #include <cstddef>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/runner/runner.h"
-#include "experiments/runner/schedule/plan.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
 
@@ -34,7 +32,6 @@ struct StudyStatus {
   std::size_t guessed = 0;  ///< missing runs without a similar finished one; the overall mean is used
   std::size_t to_time = 0;  ///< finished runs that still lack timing
   double timing_seconds_left = 0;
-  std::optional<Plan> plan;  ///< if all runs are finished
 };
 
 /// Counts the runs of this shard of the study. Only reads.

@@ -61,33 +61,4 @@ void Schedule::record(const Piece& piece, const RunFacts& facts) {
   update(piece.series);
 }
 
-double simulatedSeconds(Schedule schedule, const std::function<SimulatedRun(const Piece&)>& made, int workers,
-                        double hand_out_s) {
-  struct UnderWay {
-    double begin, end;
-    Piece piece;
-    RunFacts facts;
-  };
-  std::vector<UnderWay> all;
-  double now = 0;
-  while (true) {
-    // A cancelled run ends at once.
-    for (auto& run : all) {
-      if (run.piece.cancelled && *run.piece.cancelled) run.end = std::min(run.end, now);
-    }
-    while (all.size() < static_cast<std::size_t>(workers)) {
-      auto piece = schedule.next();
-      if (!piece) break;
-      auto [facts, seconds] = made(*piece);
-      all.push_back({now, now + hand_out_s + seconds, std::move(*piece), std::move(facts)});
-    }
-    if (all.empty() || schedule.isOver()) return now;
-    const auto first = std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.end < b.end; });
-    UnderWay done = std::move(*first);
-    all.erase(first);
-    now = done.end;
-    schedule.record(done.piece, done.facts);
-  }
-}
-
 }  // namespace irk

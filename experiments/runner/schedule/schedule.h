@@ -1,4 +1,4 @@
-// The order in which the runs of a study are made by many workers: threads, ranks, or those of a plan on paper.
+// The order in which the runs of a study are made by many workers: threads or ranks.
 #pragma once
 
 #include <atomic>
@@ -64,14 +64,5 @@ class Schedule {
   std::map<std::size_t, Begun> open_;
   std::set<Ready> ready_;  // series that have a next run
 };
-
-/// The time that `workers` need for all runs, by a simulation of the schedule. `made` gives the facts and the seconds
-/// of a run; each hand-out takes `hand_out_s` more.
-struct SimulatedRun {
-  RunFacts facts;
-  double seconds;
-};
-double simulatedSeconds(Schedule schedule, const std::function<SimulatedRun(const Piece&)>& made, int workers,
-                        double hand_out_s);
 
 }  // namespace irk
