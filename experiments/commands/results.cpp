@@ -21,7 +21,7 @@
 #include "experiments/report/publish/published_runs.h"
 #include "experiments/report/report.h"
 #include "experiments/runner/merge.h"
-#include "experiments/runner/shard_plan.h"
+#include "experiments/runner/shards.h"
 #include "experiments/runner/status.h"
 #include "experiments/runner/study_file.h"
 #include "experiments/study/study_reader.h"
@@ -60,7 +60,7 @@ std::string studyOf(const Stores& stores, const std::string& notes) {
 }
 
 // The number n in a folder name `shard_<i>_of_<n>`; 0 for other names.
-std::size_t shardsOf(std::filesystem::path folder) {
+std::size_t shardCountOf(std::filesystem::path folder) {
   if (!folder.has_filename()) folder = folder.parent_path();
   const auto name = folder.filename().string();
   const auto of = name.rfind("_of_");
@@ -75,7 +75,7 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
   const std::string& study = options.study;
   std::string results = options.results;
   std::set<std::size_t> counts;
-  for (const auto& folder : options.folders) counts.insert(shardsOf(folder));
+  for (const auto& folder : options.folders) counts.insert(shardCountOf(folder));
   const std::size_t shards = counts.size() == 1 ? *counts.begin() : 0;
   std::filesystem::path first = options.folders.front();
   if (!first.has_filename()) first = first.parent_path();
@@ -90,10 +90,7 @@ std::string commandsOf(const MergeOptions& options, const Study& made, const sto
     return "  " + programCommand(words) + '\n';
   };
   if (shards == 0) return command("");
-  RunnerOptions each;
-  each.results = first.parent_path().parent_path();
-  each.shard.count = static_cast<int>(shards);
-  const auto shard_of = shardsOf(made, each);
+  const auto shard_of = shardsOf(made, static_cast<int>(shards));
   std::set<int> missing;
   for (const auto series : report.missing_series) missing.insert(shard_of[series]);
   std::string text;

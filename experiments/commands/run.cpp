@@ -23,7 +23,6 @@
 #include "experiments/runner/cores/at_once.h"
 #include "experiments/runner/merge.h"
 #include "experiments/runner/ranks.h"
-#include "experiments/runner/shard_plan.h"
 #include "experiments/runner/skipped_runs.h"
 #include "experiments/runner/study_file.h"
 #include "experiments/runner/timing.h"
@@ -162,7 +161,6 @@ void requireRowsOfAll(const Study& study, const RunKeys& keys, const store::Stor
 // Makes the runs on all ranks, then reads the store again.
 RunKeys makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ranks, std::optional<store::Store>& store,
                     std::ostream& err) {
-  keepShards(study, options);
   const auto open = [&] {
     store.reset();
     store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);

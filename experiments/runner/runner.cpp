@@ -20,7 +20,8 @@
 #include "experiments/base/progress.h"
 #include "experiments/reference/library.h"
 #include "experiments/runner/schedule/costs.h"
-#include "experiments/runner/shard_plan.h"
+#include "experiments/runner/series_keys.h"
+#include "experiments/runner/shards.h"
 #include "experiments/runner/skipped_runs.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
@@ -265,7 +266,7 @@ std::filesystem::path studyFolder(const Study& study, const RunnerOptions& optio
 int threadCount(int jobs) { return jobs > 0 ? jobs : omp_get_num_procs(); }
 
 RunKeys runKeys(const Study& study, const RunnerOptions& options) {
-  const auto shard = shardsOf(study, options);
+  const auto shard = shardsOf(study, options.shard.count);
   std::vector<RunKeys::Series> wanted;
   for (std::size_t i = 0; i < shard.size(); ++i) {
     const Series& series = study.series[i];

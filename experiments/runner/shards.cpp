@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <queue>
 
 #include "experiments/base/numbers.h"
+#include "experiments/runner/schedule/costs.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -80,6 +82,14 @@ std::vector<int> balanced(const std::vector<double>& cost, int shards) {
     least.push({load + cost[i], index});
   }
   return shard;
+}
+
+std::vector<int> shardsOf(const Study& study, int shards) {
+  if (shards == 1) return std::vector<int>(study.series.size(), 1);
+  // Whole numbers have exact sums: hosts on which pow differs in the last bit find the same shards.
+  std::vector<double> costs;
+  for (const Series& series : study.series) costs.push_back(std::round(1000 * expectedCost(series)));
+  return balanced(costs, shards);
 }
 
 namespace {

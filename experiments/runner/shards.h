@@ -23,6 +23,10 @@ Shard parseShard(std::string_view text);
 /// work so far.
 std::vector<int> balanced(const std::vector<double>& costs, int shards);
 
+/// The shard of each series of the study, 1 to `shards`. They are balanced by guessed costs: no job of an array needs
+/// to know what others have made, and all compute the same.
+std::vector<int> shardsOf(const Study& study, int shards);
+
 /// A Slurm job script: an array of `shards` jobs that each run `run_command`, and the command that merges their
 /// results.
 std::string slurmScript(const Study& study, const std::string& run_command, const std::string& merge_command,

@@ -116,10 +116,4 @@ std::vector<double> Costs::of(std::size_t index) const {
   return costs;
 }
 
-std::vector<double> Costs::sums() const {
-  std::vector<double> sums(study_.series.size());
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = sumOf(of(i));
-  return sums;
-}
-
 }  // namespace irk

@@ -32,8 +32,6 @@ class Costs {
 
   /// The expected time of each run of a series.
   std::vector<double> of(std::size_t series) const;
-  /// The sums over the runs of all series.
-  std::vector<double> sums() const;
 
  private:
   /// The sums of measured and of guessed seconds.

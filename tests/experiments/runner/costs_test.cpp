@@ -1,13 +1,12 @@
-// Expected costs of series: from earlier rows where there are any; shards that all jobs of an array agree on.
+// Expected costs of series: from earlier rows where there are any.
 #include "experiments/runner/schedule/costs.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <numeric>
 
-#include "experiments/runner/shard_plan.h"
+#include "experiments/runner/series_keys.h"
 #include "tests/experiments/stored_runs.h"
-#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -36,11 +35,17 @@ class ExpectedCosts : public StoredRuns {
       }
     });
   }
+  // The sums over the runs of all series.
   std::vector<double> costs(const Study& of) {
     const Store earlier = reader();
-    return Costs(
-               of, [&](std::size_t i) { return keysOf(of.series[i]); }, earlier.runs())
-        .sums();
+    const Costs expected(
+        of, [&](std::size_t i) { return keysOf(of.series[i]); }, earlier.runs());
+    std::vector<double> sums;
+    for (std::size_t i = 0; i < of.series.size(); ++i) {
+      const auto runs = expected.of(i);
+      sums.push_back(std::accumulate(runs.begin(), runs.end(), 0.0));
+    }
+    return sums;
   }
 };
 
@@ -73,42 +78,6 @@ TEST_F(ExpectedCosts, AreTheTimesOfEarlierRows) {
   const auto guess = [&](std::size_t i) { return expectedCost(larger.series[i]); };
   EXPECT_DOUBLE_EQ(mixed[3], guess(3) * (3 * 7) / (guess(0) + guess(1) + guess(2)));
   EXPECT_DOUBLE_EQ(mixed[7], guess(7) * (3 * 70) / (guess(4) + guess(5) + guess(6)));
-}
-
-TEST_F(ExpectedCosts, BalanceTheShards) {
-  runWithTimes({1, 1, 1, 1, 1, 5});
-  RunnerOptions half = options();
-  half.shard = {1, 2};
-  EXPECT_EQ(shardsOf(study(kSix), half), (std::vector<int>{2, 2, 2, 2, 2, 1}));
-}
-
-// A job of the array that starts after others have been merged must not use other shards than they did.
-TEST_F(ExpectedCosts, ThePlanOfTheFirstJobStays) {
-  runWithTimes({1, 1, 1, 1, 1, 5});
-  RunnerOptions half = options();
-  half.shard = {1, 2};
-  const auto plan = shardsOf(study(kSix), half);
-  keepShards(study(kSix), half);
-  runWithTimes({5, 1, 1, 1, 1, 1});
-  EXPECT_EQ(shardsOf(study(kSix), half), plan);
-  keepShards(study(kSix), half);
-  EXPECT_EQ(shardsOf(study(kSix), half), plan);
-  // Another number of shards and another study have plans of their own.
-  half.shard = {1, 3};
-  EXPECT_NE(shardsOf(study(kSix), half), plan);
-  half.shard = {1, 2};
-  std::string edited = kSix;
-  edited.replace(edited.find("t_end = 0.1"), 11, "t_end = 0.2");
-  EXPECT_NE(shardsOf(study(edited), half), plan);
-  keepShards(study(edited), half);
-  // A damaged plan is none.
-  std::ofstream(folder() / "shards_of_2", std::ios::app) << "3\n";
-  EXPECT_EQ(shardsOf(study(edited), half).size(), 6u);
-  // Nor is a device, which may have no end.
-  std::filesystem::remove(folder() / "shards_of_2");
-  std::filesystem::create_symlink("/dev/null", folder() / "shards_of_2");
-  const auto message = refusal([&] { shardsOf(study(edited), half); });
-  EXPECT_TRUE(containsAll(message, {"shards_of_2", "a device", "regular file"})) << message;
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(Shards, AreOfAboutTheSameExpectedCost) {
   const double total = std::accumulate(cost.begin(), cost.end(), 0.0);
   const double largest = *std::max_element(cost.begin(), cost.end());
   for (const int n : {1, 2, 3, 7, 16}) {
-    const auto shard = balanced(cost, n);
+    const auto shard = shardsOf(study, n);
     ASSERT_EQ(shard.size(), study.series.size());
     std::vector<double> load(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < shard.size(); ++i) {

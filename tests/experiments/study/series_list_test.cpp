@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/base/numbers.h"
-#include "experiments/runner/shard_plan.h"
+#include "experiments/runner/series_keys.h"
 #include "experiments/runs/fields.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
