@@ -1,13 +1,11 @@
 #include "experiments/ensembles/ensemble_run.h"
 
-#include <exception>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
 #include "experiments/runs/setup.h"
 #include "irk/scene_file.h"
@@ -72,77 +70,47 @@ void Ensemble::requireValues() const {
 
 namespace {
 
-/// Hands out members to threads and collects their records.
-class Work {
- public:
-  Work(const Ensemble& ensemble, const std::atomic<bool>& stop, const MemberDone& done)
-      : ensemble_(ensemble), done_(done), stop_(stop) {
-    watch_.stop = &stop;
-  }
-
-  // One thread's part.
-  void take() {
-    const double begin = threadSeconds();
-    try {
-      Prepared prepared;
-      while (const auto i = next()) {
-        const RunRecord record = orRefused(ensemble_.spec(*i), [&] { return execute(*i, prepared); });
-        const std::lock_guard lock(mutex_);
-        done_(*i, record);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!error_) error_ = std::current_exception();
-      next_ = ensemble_.grid().size();
-    }
-    const std::lock_guard lock(mutex_);
-    cpu_ += threadSeconds() - begin;
-  }
-  double finish() const {
-    if (error_) std::rethrow_exception(error_);
-    return cpu_;
-  }
-
- private:
-  /// What a thread has made last, and for which combination of parameters.
-  struct Prepared {
-    std::unique_ptr<PreparedRun> run;
-    std::size_t parameters = 0;
-  };
-
-  std::optional<std::size_t> next() {
-    const std::size_t i = stop_ ? ensemble_.grid().size() : next_++;
-    return i < ensemble_.grid().size() ? std::optional(i) : std::nullopt;
-  }
-  RunRecord execute(std::size_t i, Prepared& prepared) const {
-    const std::size_t parameters = ensemble_.grid().parametersOf(i);
-    if (!prepared.run || prepared.parameters != parameters) {
-      prepared.run = nullptr;
-      prepared = {prepare(ensemble_.spec(i)), parameters};
-    }
-    if (!ensemble_.grid().starts().empty()) prepared.run->startFrom(ensemble_.start(i));
-    return prepared.run->execute(watch_);
-  }
-
-  const Ensemble& ensemble_;
-  const MemberDone& done_;
-  const std::atomic<bool>& stop_;
-  Watch watch_;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;
-  std::exception_ptr error_;
-  double cpu_ = 0;
+/// What a thread has made last, and for which combination of parameters.
+struct Prepared {
+  std::unique_ptr<PreparedRun> run;
+  std::size_t parameters = 0;
 };
+
+RunRecord executeMember(const Ensemble& ensemble, std::size_t i, const Watch& watch, Prepared& prepared) {
+  const std::size_t parameters = ensemble.grid().parametersOf(i);
+  if (!prepared.run || prepared.parameters != parameters) {
+    prepared.run = nullptr;
+    prepared = {prepare(ensemble.spec(i)), parameters};
+  }
+  if (!ensemble.grid().starts().empty()) prepared.run->startFrom(ensemble.start(i));
+  return prepared.run->execute(watch);
+}
 
 }  // namespace
 
 double runEnsemble(const Ensemble& ensemble, int jobs, const std::atomic<bool>& stop, const MemberDone& done) {
-  Work work(ensemble, stop, done);
-  std::vector<std::thread> others;
-  for (int i = 1; i < jobs; ++i) others.emplace_back([&work] { work.take(); });
-  work.take();
-  for (std::thread& other : others) other.join();
-  return work.finish();
+  Watch watch;
+  watch.stop = &stop;
+  std::mutex mutex;
+  ParallelLoop loop;
+  double cpu = 0;
+#pragma omp parallel num_threads(jobs) reduction(+ : cpu)
+  {
+    const double begin = threadSeconds();
+    Prepared prepared;
+#pragma omp for schedule(dynamic, 1) nowait
+    for (std::size_t i = 0; i < ensemble.grid().size(); ++i) {
+      loop.turn(i, [&] {
+        if (stop) return;
+        const auto record = orRefused(ensemble.spec(i), [&] { return executeMember(ensemble, i, watch, prepared); });
+        const std::lock_guard lock(mutex);
+        done(i, record);
+      });
+    }
+    cpu += threadSeconds() - begin;
+  }
+  loop.rethrow();
+  return cpu;
 }
 
 }  // namespace irk
