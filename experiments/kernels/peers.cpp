@@ -10,17 +10,18 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <string>
 
-#include "experiments/kernels/benchmark_main.h"
 #include "experiments/kernels/direct_calls.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/loaded/adapters.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/peers/problem/make_problem.h"
 #include "experiments/runs/setup.h"
+#include "irk/misuse.h"
 
 namespace irk {
 namespace {
@@ -186,4 +187,12 @@ void addAll() {
 }  // namespace
 }  // namespace irk
 
-int main(int argc, char** argv) { return irk::runBenchmarks(argc, argv, "irk_peers", irk::addAll); }
+int main(int argc, char** argv) try {
+  irk::addAll();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+} catch (const irk::Misuse& misuse) {
+  std::fprintf(stderr, "irk_peers: %s\n", misuse.what());
+  return 2;
+}
