@@ -8,7 +8,7 @@
 
 namespace irk {
 
-/// Parses TOML without braces, times and lists of lists. Throws Misuse with file and line for other text.
+/// Throws Misuse with file and line for text that is no TOML, and for keys of more than 1000 parts.
 toml::table parseToml(std::string_view text, const std::string& file);
 
 }  // namespace irk

