@@ -66,14 +66,9 @@ struct SceneReferences {
 SceneReferences referencesOf(const std::string& scene, const std::vector<ReferenceValue>& independent,
                              const ReferenceWatch& watch) {
   SceneReferences result{scene, {}, {}, {}, {}};
-  std::vector<ReferenceTask> tasks;
-  std::vector<std::vector<std::string>> times;
   for (const auto& task : referenceTasks()) {
     if (task.scene != scene) continue;
-    tasks.push_back(task);
-    times.push_back(timesOf(task, independent));
-  }
-  for (const auto& computed : compute(tasks, times, watch)) {
+    const auto computed = compute(task, timesOf(task, independent), watch);
     result.values.insert(result.values.end(), computed.values.begin(), computed.values.end());
     result.problems.insert(result.problems.end(), computed.problems.begin(), computed.problems.end());
   }
@@ -144,7 +139,7 @@ int referenceCommand(const ReferenceOptions& options, Streams streams) {
   Progress progress(streams.err, "reference");
   for (const auto& scene : scenes) {
     for (const auto& task : referenceTasks()) {
-      if (task.scene == scene) expectRuns(task, progress);
+      if (task.scene == scene) expectTask(task, progress);
     }
   }
   const ReferenceWatch watch{threadCount(options.jobs), &interruptFlag(), &progress};

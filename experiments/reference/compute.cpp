@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <limits>
-#include <mutex>
-#include <span>
 
-#include "core/base/parallel_loop.h"
 #include "experiments/base/clock.h"
-#include "experiments/reference/agreement.h"
-#include "experiments/reference/integration.h"
+#include "experiments/reference/attempt.h"
 
 namespace irk {
 namespace {
@@ -47,18 +42,18 @@ std::string howText(const ReferenceTask& task) {
 
 class Assembly {
  public:
-  Assembly(const ReferenceTask& task, const std::vector<std::string>& times, std::span<const Integrated> runs)
+  Assembly(const ReferenceTask& task, const std::vector<std::string>& times, const Attempted& made)
       : task_(task),
         times_(times),
-        runs_(runs),
+        made_(made),
         spec_(referenceRun(task, 0)),
         scene_(makeScene<BigFloat>(spec_.scene, spec_.settings)) {}
 
   ComputedTask result() {
-    for (const auto& run : runs_) {
-      if (!run.failure.empty()) computed_.problems.push_back(nameOf(task_) + ": " + run.failure);
+    if (!made_.failure.empty()) {
+      computed_.problems.push_back(nameOf(task_) + ": " + made_.failure);
+      return computed_;
     }
-    if (!computed_.problems.empty()) return computed_;
     const Rows exact = exactRows(scene_, times_);
     for (std::size_t i = 0; i < times_.size(); ++i) {
       for (std::size_t j = 0; j < exact[i].size(); ++j) addValue(i, j, exact[i][j]);
@@ -73,17 +68,14 @@ class Assembly {
   }
 
   void addValue(std::size_t i, std::size_t j, const BigFloat& exact) {
-    std::array<BigFloat, kReferenceRuns> values;
-    for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs_[run].rows[i][j];
-    if (!isfinite(values.back())) return;  // the output is not defined here
     const auto at = static_cast<Index>(j);
     const double scale = at < scene_.scale.size() ? scene_.scale[at] : 1;
-    const double size = std::max(std::abs(static_cast<double>(values.back())), scale);
-    const AgreedValue found = agreed(values, task_.of.tolerance * kFiner * size);
+    const auto found = agreedNumber(made_, i, j, task_.of.tolerance * kFiner, scale);
+    if (!found) return;  // the output is not defined here
     ReferenceValue value{
-        spec_.scene,   settingsText(spec_.settings), times_[i], component(j), found.value, found.accuracy,
+        spec_.scene,   settingsText(spec_.settings), times_[i], component(j), found->value, found->accuracy,
         howText(task_)};
-    if (isfinite(exact)) replace(value, exact, size);
+    if (isfinite(exact)) replace(value, exact, found->size);
     computed_.values.push_back(std::move(value));
   }
 
@@ -101,7 +93,7 @@ class Assembly {
 
   const ReferenceTask& task_;
   const std::vector<std::string>& times_;
-  std::span<const Integrated> runs_;
+  const Attempted& made_;
   RunSpec spec_;
   Scene<BigFloat> scene_;
   ComputedTask computed_;
@@ -117,33 +109,15 @@ bool samePlace(const ReferenceValue& a, const ReferenceValue& b) {
   return a.scene == b.scene && a.settings == b.settings && a.component == b.component && BigFloat(a.t) == BigFloat(b.t);
 }
 
-void expectRuns(const ReferenceTask& task, Progress& progress) {
-  for (std::size_t run = 0; run < kReferenceRuns; ++run) progress.expect(nameOf(task));
-}
+void expectTask(const ReferenceTask& task, Progress& progress) { progress.expect(nameOf(task)); }
 
-std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
-                                  const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch) {
-  std::vector<Integrated> runs(kReferenceRuns * tasks.size());
-  std::mutex mutex;
-  ParallelLoop loop;
-  // The last runs of a task have the finer tolerance and take longest: start with them.
-#pragma omp parallel for schedule(dynamic, 1) num_threads(watch.jobs)
-  for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-    loop.turn(turn, [&] {
-      const std::size_t i = runs.size() - 1 - turn, task = i / kReferenceRuns;
-      const double start = threadSeconds();
-      runs[i] = integrated(referenceRun(tasks[task], i % kReferenceRuns), times[task], {.stop = watch.stop});
-      const std::lock_guard lock(mutex);
-      if (watch.progress) watch.progress->finished(nameOf(tasks[task]), threadSeconds() - start);
-    });
-  }
-  loop.rethrow();
-  std::vector<ComputedTask> computed;
-  for (std::size_t task = 0; task < tasks.size(); ++task) {
-    const std::span all(runs);
-    computed.push_back(Assembly(tasks[task], times[task], all.subspan(kReferenceRuns * task, kReferenceRuns)).result());
-  }
-  return computed;
+ComputedTask compute(const ReferenceTask& task, const std::vector<std::string>& times, const ReferenceWatch& watch) {
+  ReferenceSpecs specs;
+  for (std::size_t i = 0; i < kReferenceRuns; ++i) specs[i] = referenceRun(task, i);
+  const double start = wallSeconds();
+  const auto made = attempt(specs, times, {.jobs = watch.jobs, .stop = watch.stop});
+  if (watch.progress) watch.progress->finished(nameOf(task), wallSeconds() - start);
+  return Assembly(task, times, made).result();
 }
 
 }  // namespace irk

@@ -28,7 +28,7 @@ bool samePlace(const ReferenceValue& a, const ReferenceValue& b);
 
 struct ComputedTask {
   std::vector<ReferenceValue> values;  ///< by time, then in the order of components and outputs
-  /// Failed runs (then there are no values), and exact solutions that the integrations contradict.
+  /// A failed run (then there are no values), and exact solutions that the integrations contradict.
   std::vector<std::string> problems;
 };
 
@@ -39,13 +39,12 @@ struct ReferenceWatch {
   Progress* progress = nullptr;
 };
 
-/// Announces a task's runs to `progress`.
-void expectRuns(const ReferenceTask& task, Progress& progress);
+/// Announces a task to `progress`.
+void expectTask(const ReferenceTask& task, Progress& progress);
 
-/// For each task the values at its `times` (decimal, ascending, from the scene's start on). A value is exact if the
-/// scene has a closed form with which the integrations agree; otherwise it has the digits on which the four
-/// integrations agree. A computation that is stopped reports problems.
-std::vector<ComputedTask> compute(const std::vector<ReferenceTask>& tasks,
-                                  const std::vector<std::vector<std::string>>& times, const ReferenceWatch& watch);
+/// The values at these times (decimal, ascending, from the scene's start on). A value is exact if the scene has a
+/// closed form with which the integrations agree; otherwise it has the digits on which the four integrations agree. A
+/// computation that is stopped reports problems.
+ComputedTask compute(const ReferenceTask& task, const std::vector<std::string>& times, const ReferenceWatch& watch);
 
 }  // namespace irk

@@ -24,7 +24,7 @@ class ReferenceLibrary {
     /// Called with one line for each reference that is made (not for those from the cache), never by two threads at
     /// once.
     std::function<void(const std::string& line)> tell = {};
-    /// Called now and then with what is being computed and how far it is, and with an empty text before `tell` and when
+    /// Called now and then with what is being computed and its CPU time, and with an empty text before `tell` and when
     /// nothing is computed any more; never by two threads at once.
     std::function<void(const std::string& text)> show = {};
     ReferenceLimits limits = {};

@@ -9,7 +9,6 @@
 #include "experiments/base/clock.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
-#include "experiments/reference/agreement.h"
 #include "experiments/reference/attempt.h"
 #include "experiments/runs/error_bar.h"
 #include "experiments/runs/fields.h"
@@ -72,9 +71,6 @@ ReferenceSpecs specsInDouble(const ReferenceQuestion& question, double length, c
   return specs;
 }
 
-// A run that finds the course of the solution may take this part of the CPU time of the four runs.
-constexpr double kCourseShare = 0.05;
-
 class Making {
  public:
   Making(const std::vector<ReferenceQuestion>& questions, const ReferenceLimits& limits, const MakingWatch& watch)
@@ -87,7 +83,6 @@ class Making {
         in_double_(questions.size()) {}
 
   std::vector<ComputedReference> made() {
-    course_ = courseOf(last(), kCourseShare * limits_.cpu_s, watch_.stop);
     const std::string no_fifty = whyNotInFiftyDigits();
     std::fill(in_fifty_.begin(), in_fifty_.end(), no_fifty);
     if (no_fifty.empty()) {
@@ -132,47 +127,39 @@ class Making {
     if (wanted.empty() || stopped()) return;
     std::vector<std::string> times;
     for (const std::size_t k : wanted) times.push_back(numberText(questions_[k].t_end));
-    const double start = wallSeconds();
-    const auto progress = [&](double part) { show(how, part, wallSeconds() - start); };
-    const auto attempted = attempt(
-        specs, times,
-        {.jobs = watch_.jobs, .stop = watch_.stop, .cpu_s = limits_.cpu_s, .course = course_, .progress = progress});
+    const auto made = attempt(
+        specs, times, {.jobs = watch_.jobs, .stop = watch_.stop, .cpu_s = limits_.cpu_s, .progress = [&](double cpu_s) {
+                         show(how, cpu_s);
+                       }});
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const bool reached = std::all_of(attempted.runs.begin(), attempted.runs.end(),
-                                       [i](const Integrated& run) { return run.rows.size() > i; });
-      why_not[wanted[i]] = reached ? agree(specs, attempted.runs, i, least, wanted[i]) : attempted.failure;
+      why_not[wanted[i]] = made.hasReached(i) ? agree(specs, made, i, least, wanted[i]) : made.failure;
     }
   }
 
-  void show(const char* how, double part, double seconds) const {
+  void show(const char* how, double cpu_s) const {
     if (!watch_.show) return;
-    const std::string far = std::isnan(part) ? fmt::format("{} so far", durationText(seconds))
-                                             : fmt::format("{:.0f} %, about {} left", 100 * part,
-                                                           durationText(part > 0 ? seconds / part * (1 - part) : 0));
-    watch_.show(fmt::format("reference {}: {}, {}", placeText(questions_), how, far));
+    watch_.show(fmt::format("reference {}: {}, {} of CPU time, at most {}", placeText(questions_), how,
+                            durationText(cpu_s), durationText(limits_.cpu_s)));
   }
 
   // Of the i-th row of the runs, for question k. Returns why there is nothing to keep.
-  std::string agree(const ReferenceSpecs& specs, const std::array<Integrated, kReferenceRuns>& runs, std::size_t i,
-                    double least, std::size_t k) {
+  std::string agree(const ReferenceSpecs& specs, const Attempted& made, std::size_t i, double least, std::size_t k) {
     const auto names = namesOf();
     ComputedReference result;
     result.in_double = in_fifty_[k];
     for (std::size_t j = 0; j < names.size(); ++j) {
-      std::array<BigFloat, kReferenceRuns> values;
-      for (std::size_t run = 0; run < kReferenceRuns; ++run) values[run] = runs[run].rows[i][j];
-      if (!std::all_of(values.begin(), values.end(), [](const BigFloat& x) { return isfinite(x); })) continue;
-      const double size = std::max(std::abs(static_cast<double>(values.back())), scaleOf(j));
-      const AgreedValue found = agreed(values, least * size);
-      if (found.accuracy > limits_.disagreement * size) {
-        const auto text = fmt::format("the four runs disagree, {} by {:.0e}", names[j], found.accuracy / size);
+      const auto found = agreedNumber(made, i, j, least, scaleOf(j));
+      if (!found) continue;
+      const double accuracy = found->accuracy / found->size;
+      if (accuracy > limits_.disagreement) {
+        const auto text = fmt::format("the four runs disagree, {} by {:.0e}", names[j], accuracy);
         // In 50 digits this is the end; in double a stricter attempt may follow.
         if (!specs.back().scalar.isDouble()) results_[k].problem = "in 50 digits " + text;
         return text;
       }
-      result.accuracy = std::max(result.accuracy, found.accuracy / size);
+      result.accuracy = std::max(result.accuracy, accuracy);
       result.values.push_back({last().scene, settingsText(last().settings), numberText(questions_[k].t_end), names[j],
-                               found.value, found.accuracy, "four runs that agree"});
+                               found->value, found->accuracy, "four runs that agree"});
     }
     if (result.values.empty()) return "no component is finite";
     results_[k] = std::move(result);
@@ -195,7 +182,6 @@ class Making {
   const ReferenceLimits& limits_;
   const MakingWatch& watch_;
   Scene<double> scene_;
-  Course course_;
   std::vector<ComputedReference> results_;
   std::vector<std::string> in_fifty_, in_double_;  // why there are no values, for each question
 };

@@ -34,8 +34,7 @@ struct ComputedReference {
 struct MakingWatch {
   int jobs = 1;  ///< threads, > 0
   const std::atomic<bool>* stop = nullptr;
-  /// Called now and then, never by two threads at once, with what is being computed, how far it is, and how long it
-  /// still takes.
+  /// Called now and then, never by two threads at once, with what is being computed and the CPU time that it has taken.
   std::function<void(const std::string& text)> show = {};
 };
 
@@ -43,8 +42,8 @@ struct MakingWatch {
 /// (at least one) differ in t_end only and have ascending ones: each run is one integration through all of them. With
 /// 50 digits: radau_iia_16 and lobatto_iiic_16 as in `irk reference`; in double: radau_iia_7 and lobatto_iiic_6 with
 /// small steps. Switches are located; index 2. Double is used where the scene has no 50 digits or too many unknowns for
-/// them, and from the time on at which the runs in 50 digits fail or can be expected to take too long; runs in 50
-/// digits that disagree are not followed by others. Exceptions become `problem`.
+/// them, and from the time on at which the runs in 50 digits fail or take too long; runs in 50 digits that
+/// disagree are not followed by others. Exceptions become `problem`.
 std::vector<ComputedReference> makeReferences(const std::vector<ReferenceQuestion>& questions,
                                               const ReferenceLimits& limits, const MakingWatch& watch);
 

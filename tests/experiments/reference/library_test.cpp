@@ -212,7 +212,7 @@ TEST_F(ReferenceLibraryTest, OnlyATerminalSeesHowFarItIs) {
   EXPECT_EQ(runProgram(arguments, {out, std::cerr}), 0);
   const std::string seen = terminal.text();
   const std::string line = "\r\033[Kreference mechanical_dae, t = 0.01 ... 0.02 (2 times): ";
-  EXPECT_TRUE(containsAll(seen, {line + "in 50 digits, 0:0", " so far", line + "3", " digits, "}));
+  EXPECT_TRUE(containsAll(seen, {line + "in 50 digits, 0:0", " of CPU time, at most 1:00", line + "3", " digits, "}));
 }
 
 TEST_F(ReferenceLibraryTest, SolveReportsErrorsThatAreNotMeasurable) {
