@@ -2,13 +2,13 @@
 #include <fmt/ostream.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/base/text.h"
 #include "experiments/audit/judge.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/folders.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/commands/commands.h"
 #include "experiments/commands/out_file.h"
@@ -134,26 +134,6 @@ void printRecord(std::ostream& out, const RunRecord& record, const std::vector<s
   printSwitches(out, record);
   fmt::print(out, "{:<22} {:.3g}\n", "cpu_s", record.cpu_s);
 }
-
-/// A new folder inside the system's temporary one; the destructor removes it with its contents.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "irk_solve_XXXXXX";
-    if (!mkdtemp(name.data())) throw Failure("no temporary folder " + name);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // With this many points a curve shows no corners.
 constexpr int kPlotPoints = 1000;

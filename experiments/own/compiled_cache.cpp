@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "core/base/input_file.h"
-#include "experiments/base/cache_folder.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/folders.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/tables/environment.h"

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "experiments/base/cache_folder.h"
+#include "experiments/base/folders.h"
 #include "experiments/base/numbers.h"
 #include "experiments/reference/tables.h"
 

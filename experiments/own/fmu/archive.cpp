@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/input_file.h"
-#include "experiments/base/cache_folder.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/folders.h"
 #include "experiments/base/numbers.h"
 #include "irk/misuse.h"
 

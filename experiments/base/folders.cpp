@@ -1,6 +1,8 @@
-#include "experiments/base/cache_folder.h"
+#include "experiments/base/folders.h"
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -29,6 +31,17 @@ std::filesystem::path cacheFolder(std::string_view part) {
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure("the cache folder " + folder.string() + " cannot be made: " + error.message());
   return folder;
+}
+
+ScratchFolder::ScratchFolder() {
+  std::string name = std::filesystem::temp_directory_path() / "irk_XXXXXX";
+  if (!mkdtemp(name.data())) throw Failure("no temporary folder " + name + ": " + std::strerror(errno));
+  path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace irk
