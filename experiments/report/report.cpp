@@ -2,24 +2,17 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <iterator>
-#include <memory>
 #include <ostream>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include "core/base/parallel_loop.h"
 #include "core/base/text.h"
 #include "experiments/analyses/results.h"
+#include "experiments/base/child_process.h"
 #include "experiments/base/failure.h"
 #include "experiments/report/drawn_rows.h"
 #include "experiments/report/figure_path.h"
@@ -32,35 +25,11 @@ namespace irk {
 namespace {
 
 // Forwards gnuplot's messages, except those about curves without points: a panel may lack rows.
-void forwardMessages(std::FILE* file, std::ostream& err) {
-  std::rewind(file);
-  for (char line[4096]; std::fgets(line, sizeof line, file);) {
-    const std::string_view text(line);
-    if (text != "\n" && text.find("no valid points") == text.npos) err << text;
+void forwardMessages(const std::string& messages, std::ostream& err) {
+  std::istringstream lines(messages);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.find("no valid points") == line.npos) err << line << '\n';
   }
-}
-
-// Returns the exit status of `gnuplot -e commands script`, or -1 with errno if it cannot be started.
-int runGnuplot(const std::string& commands, const std::string& script, std::ostream& err) {
-  std::string words[] = {"gnuplot", "-e", commands, script};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(std::tmpfile(), std::fclose);
-  if (!messages) return -1;
-  posix_spawn_file_actions_t redirect;
-  posix_spawn_file_actions_init(&redirect);
-  posix_spawn_file_actions_adddup2(&redirect, fileno(messages.get()), STDERR_FILENO);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, "gnuplot", &redirect, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&redirect);
-  if (error != 0) {
-    errno = error;
-    return -1;
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  forwardMessages(messages.get(), err);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 std::string commandOf(const std::string& study) { return study == kTableauResults ? "tableau table" : "run " + study; }
@@ -162,15 +131,17 @@ void requireResultsFolder(const std::filesystem::path& results) {
 }
 
 bool drawFigure(const std::string& script, const std::string& commands, const std::filesystem::path& home,
-                std::ostream& err) {
+                std::ostream& err) try {
   const auto path = (home / "plots" / script).string();
-  const int status = runGnuplot(commands, path, err);
-  if (status < 0) {
-    fmt::print(err, "cannot start gnuplot ({}): install the package gnuplot-nox\n", std::strerror(errno));
-  } else if (status > 0) {
-    fmt::print(err, "gnuplot ended with status {}: gnuplot -e \"{}\" {}\n", status, commands, path);
+  const auto ended = runChild({"gnuplot", "-e", commands, path});
+  forwardMessages(ended.messages, err);
+  if (ended.status != 0) {
+    fmt::print(err, "gnuplot ended with status {}: gnuplot -e \"{}\" {}\n", ended.status, commands, path);
   }
-  return status == 0;
+  return ended.status == 0;
+} catch (const Failure& failure) {
+  fmt::print(err, "{}; it is in the package gnuplot-nox\n", failure.what());
+  return false;
 }
 
 int drawFigures(const std::string& study, const ReportOptions& options, std::ostream& err) {
