@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "experiments/base/split.h"
 #include "experiments/base/streams.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -61,15 +62,9 @@ Words studies() {
 
 // The words listed in a type such as "TEXT:{keep,remake}".
 Words listed(const std::string& type) {
-  Words words;
   const std::size_t open = type.find('{'), close = type.find('}');
-  if (open == std::string::npos || close == std::string::npos) return words;
-  for (std::size_t begin = open + 1; begin < close;) {
-    const std::size_t end = std::min(type.find(',', begin), close);
-    words.push_back(type.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
+  if (open == std::string::npos || close == std::string::npos) return {};
+  return split(std::string_view(type).substr(open + 1, close - open - 1), ',');
 }
 
 // The name of an option as the user writes it, or of an argument.

@@ -9,6 +9,7 @@
 
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
+#include "experiments/base/split.h"
 #include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -28,14 +29,11 @@ struct SweptOption {
 };
 
 std::vector<std::string> items(const std::string& name, const std::string& text) {
-  std::vector<std::string> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    values.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-    if (values.back().empty()) throw Misuse(fmt::format("{} = '{}': an empty item in a list", name, text));
-    if (std::count(values.begin(), values.end(), values.back()) > 1) {
-      throw Misuse(fmt::format("{} = '{}': '{}' is listed twice", name, text, values.back()));
+  const auto values = split(text, ',');
+  for (const auto& value : values) {
+    if (value.empty()) throw Misuse(fmt::format("{} = '{}': an empty item in a list", name, text));
+    if (std::count(values.begin(), values.end(), value) > 1) {
+      throw Misuse(fmt::format("{} = '{}': '{}' is listed twice", name, text, value));
     }
   }
   return values;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "experiments/base/split.h"
 #include "irk/misuse.h"
 
 namespace irk {
@@ -14,16 +15,6 @@ namespace {
 
 constexpr Range kCounts = Range::integers(2, Grid::kMostMembers);
 constexpr std::string_view kLogarithmic = ":log";
-
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> items;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    items.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return items;
-}
 
 // The values of `A..B:N` or `A..B:N:log`.
 void appendRange(const std::string& place, std::string_view text, std::vector<std::string>& values) {
@@ -53,7 +44,7 @@ GridAxis gridAxis(std::string_view option, const std::string& text) {
   }
   GridAxis axis{text.substr(0, equals), {}};
   const std::string place = fmt::format("{} {}", option, axis.name);
-  for (const std::string& item : split(std::string_view(text).substr(equals + 1))) {
+  for (const std::string& item : split(std::string_view(text).substr(equals + 1), ',')) {
     if (item.empty()) throw Misuse(fmt::format("{} '{}': an empty item in a list", option, text));
     if (item.find("..") != std::string::npos) {
       appendRange(place, item, axis.values);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "experiments/base/split.h"
 #include "experiments/report/figure_path.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/report/scripts.h"
@@ -14,18 +15,6 @@
 
 namespace irk {
 namespace {
-
-std::vector<std::string> split(const std::string& line, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : line) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
 
 // For use inside double quotes of the shell.
 std::string shellQuoted(std::string_view text) {

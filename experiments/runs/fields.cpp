@@ -16,6 +16,7 @@
 #include "core/control/order_controller.h"
 #include "core/options/fixed_steps.h"
 #include "core/options/option_fields.h"
+#include "experiments/base/split.h"
 #include "experiments/own/files.h"
 #include "experiments/runs/configurations.h"
 #include "experiments/runs/peers/catalogue.h"
@@ -50,10 +51,8 @@ Field<RunSpec> sceneField() {
 // The text `name=value name=value`.
 Settings settingsIn(std::string_view text) {
   Settings settings;
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    if (end > 0) addSetting(settings, text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (const auto& item : split(text, ' ')) {
+    if (!item.empty()) addSetting(settings, item);
   }
   return settings;
 }
