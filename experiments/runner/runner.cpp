@@ -22,7 +22,6 @@
 #include "experiments/runner/schedule/costs.h"
 #include "experiments/runner/series_keys.h"
 #include "experiments/runner/shards.h"
-#include "experiments/runner/skipped_runs.h"
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/solution/trajectory.h"
@@ -290,15 +289,6 @@ RunKeys makeRuns(const Study& study, const RunnerOptions& options, store::Store&
   sweep.makeReferences(ranks, progress);
   sweep.run(threadCount(options.jobs), ranks);
   return sweep.takeKeys();
-}
-
-Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
-  store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
-  const auto alone = aloneRank();
-  const auto keys = makeRuns(study, options, store, *alone, progress);
-  recordSkippedRuns(study, keys, store);
-  store.exportTables(keys, progress);
-  return readTable(store.folder() / "runs.csv");
 }
 
 }  // namespace irk

@@ -10,7 +10,6 @@
 #include "experiments/runner/runner_options.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
-#include "experiments/tables/table.h"
 
 namespace irk {
 
@@ -28,9 +27,5 @@ RunKeys runKeys(const Study& study, const RunnerOptions& options);
 /// all runs, of which an interrupt may leave some without a row. Writes progress to `progress`. Throws Failure.
 RunKeys makeRuns(const Study& study, const RunnerOptions& options, store::Store& store, Ranks& ranks,
                  std::ostream& progress);
-
-/// Like makeRuns, on this process only and with its own store in studyFolder; exports the tables and returns
-/// runs.csv.
-Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress);
 
 }  // namespace irk

@@ -10,11 +10,24 @@
 #include <vector>
 
 #include "experiments/runner/runner.h"
+#include "experiments/runner/skipped_runs.h"
 #include "experiments/store/checksum.h"
+#include "experiments/store/store.h"
 #include "experiments/study/study_reader.h"
+#include "experiments/tables/table.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
+
+/// Makes the runs on this process alone, exports the tables and returns runs.csv.
+inline Table runStudy(const Study& study, const RunnerOptions& options, std::ostream& progress) {
+  store::Store store(studyFolder(study, options), study.id, store::Use::kWrite, options.store, progress);
+  const auto alone = aloneRank();
+  const auto keys = makeRuns(study, options, store, *alone, progress);
+  recordSkippedRuns(study, keys, store);
+  store.exportTables(keys, progress);
+  return readTable(store.folder() / "runs.csv");
+}
 
 struct StudyRuns {
   Study study;

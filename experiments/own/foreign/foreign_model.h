@@ -51,7 +51,6 @@ class ForeignModel {
   /// Numbers of w.
   std::size_t rates() const { return static_cast<std::size_t>(layout_.w); }
   const std::vector<int>& entryRows() const { return entry_rows_; }
-  const std::vector<int>& entryColumns() const { return entry_columns_; }
   bool hasDerivatives() const { return functions().jacobian || functions().product; }
   std::unique_lock<std::mutex> lock() const {
     return concurrent_ ? std::unique_lock<std::mutex>() : std::unique_lock(*source_.one_at_a_time);

@@ -12,6 +12,7 @@
 #include "experiments/study/study_reader.h"
 #include "irk/scene.h"
 #include "tests/experiments/analyses/analysis_tables.h"
+#include "tests/experiments/study_runs.h"
 #include "tests/experiments/support.h"
 
 namespace irk {

@@ -7,6 +7,7 @@
 
 #include "experiments/runner/runner.h"
 #include "experiments/study/study_reader.h"
+#include "tests/experiments/study_runs.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
