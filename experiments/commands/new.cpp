@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "experiments/base/failure.h"
+#include "experiments/base/html.h"
 #include "experiments/commands/commands.h"
 #include "experiments/own/scene_template.h"
 #include "irk/misuse.h"
@@ -27,13 +28,6 @@ std::string structName(const std::string& id) {
     starts = c == '_';
   }
   return name;
-}
-
-std::string replaced(std::string text, std::string_view from, const std::string& to) {
-  for (auto at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
 }
 
 void requireSceneFile(const std::filesystem::path& path) {
@@ -57,8 +51,11 @@ int newCommand(const std::string& kind, const std::string& file, Streams streams
   const std::filesystem::path path(file);
   requireSceneFile(path);
   const std::string id = path.stem().string();
+  std::string text(own::kSceneTemplate);
+  replacePlaceholder(text, kTemplateId, id);
+  replacePlaceholder(text, kTemplateStruct, structName(id));
   std::ofstream out(path);
-  out << replaced(replaced(std::string(own::kSceneTemplate), kTemplateId, id), kTemplateStruct, structName(id));
+  out << text;
   out.close();
   if (!out) throw Failure(fmt::format("'{}' cannot be written", file));
   fmt::print(streams.out, "{0}: a scene that runs: irk solve {0} --method radau_iia_5 --tol 1e-8\n", file);

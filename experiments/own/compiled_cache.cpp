@@ -20,6 +20,7 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/tables/environment.h"
+#include "experiments/tables/new_file.h"
 #include "irk/misuse.h"
 
 namespace irk::own {
@@ -65,18 +66,12 @@ std::string hashNow(const std::vector<fs::path>& files) {
 
 std::string hashOfObject(const fs::path& object) { return hexText(fnv1a(readInputFile(object, kMaxObjectBytes))); }
 
-void moveTo(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw Failure(fmt::format("{}: {}", to.string(), error.message()));
-}
-
-void writeBeside(const fs::path& beside, const fs::path& file, const std::string& text) {
-  std::ofstream out(beside);
-  if (!(out << text).flush()) throw Failure("cannot write " + beside.string());
-  out.close();
-  chmod(beside.c_str(), S_IRUSR | S_IWUSR);
-  moveTo(beside, file);
+// Nobody but the user may write it (isOwnFile), whatever the umask is.
+void writeOwnFile(const fs::path& path, const std::string& text) {
+  NewFile file(path);
+  file.out() << text;
+  file.close();
+  chmod(path.c_str(), S_IRUSR | S_IWUSR);
 }
 
 }  // namespace
@@ -117,13 +112,11 @@ void CachedObject::put(const fs::path& made, const std::vector<fs::path>& files)
   std::string text = hashOfFiles(files) + '\n' + hashOfObject(made) + '\n';
   for (const auto& file : files) text += file.string() + '\n';
   chmod(made.c_str(), S_IRWXU);
-  moveTo(made, object_);
-  writeBeside(made.string() + ".files", record_, text);
+  fs::rename(made, object_);
+  writeOwnFile(record_, text);
 }
 
-void CachedObject::putFailure(const std::string& messages) const {
-  writeBeside(nameBeside().string() + ".failed", failed_, messages);
-}
+void CachedObject::putFailure(const std::string& messages) const { writeOwnFile(failed_, messages); }
 
 void CachedObject::forgetFailure() const {
   std::error_code none;

@@ -1,7 +1,6 @@
 #include "experiments/reference/cache.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -68,11 +67,7 @@ void keepReference(const ReferenceQuestion& question, const ComputedReference& r
                                 {"seconds", numberText(reference.seconds)}},
                                reference.values);
   table.head.emplace_back("checksum", checksum(table));
-  // Two processes may keep the same reference at once: each writes a file of its own first.
-  const auto file = fileOf(question);
-  const std::filesystem::path own = fmt::format("{}.{}", file.string(), getpid());
-  writeTable(own, table);
-  std::filesystem::rename(own, file);
+  writeTable(fileOf(question), table);
 }
 
 }  // namespace irk

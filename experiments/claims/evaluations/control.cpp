@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/analyses/line_fit.h"
 #include "experiments/claims/evaluations.h"
 #include "experiments/claims/measures.h"
 
@@ -17,35 +18,25 @@ TableRow methodPlace(const Table& runs, const TableRow& run) {
 
 // --- C8
 
-// The slope of a least-squares line.
-double slopeOf(const std::vector<std::pair<double, double>>& points) {
-  double x = 0, y = 0, xx = 0, xy = 0;
-  for (const auto& [a, b] : points) {
-    x += a / static_cast<double>(points.size());
-    y += b / static_cast<double>(points.size());
-  }
-  for (const auto& [a, b] : points) {
-    xx += (a - x) * (a - x);
-    xy += (a - x) * (b - y);
-  }
-  return xx > 0 ? xy / xx : std::nan("");
-}
-
 using Cost = double (*)(const Table& runs, const TableRow& run);
 
 // Per scene, tolerance and kind of method: the slope of a cost over the number of located switches.
 std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, Cost cost) {
   constexpr std::size_t kMinPoints = 4;
-  std::map<TableRow, std::map<std::string, std::vector<std::pair<double, double>>>> points;
+  struct Points {
+    std::vector<double> switches, costs;
+  };
+  std::map<TableRow, std::map<std::string, Points>> points;
   for (const auto& run : runs.rows) {
     if (!succeededAt(runs, run)) continue;
-    points[{textAt(runs, run, "scene"), textAt(runs, run, "rtol")}][textAt(runs, run, "method")].emplace_back(
-        numberAt(runs, run, "located_events"), cost(runs, run));
+    Points& its = points[{textAt(runs, run, "scene"), textAt(runs, run, "rtol")}][textAt(runs, run, "method")];
+    its.switches.push_back(numberAt(runs, run, "located_events"));
+    its.costs.push_back(cost(runs, run));
   }
   std::map<TableRow, std::map<std::string, double>> all;
   for (const auto& [place, methods] : points) {
-    for (const auto& [method, list] : methods) {
-      if (list.size() >= kMinPoints) all[place][method] = slopeOf(list);
+    for (const auto& [method, its] : methods) {
+      if (its.costs.size() >= kMinPoints) all[place][method] = fitLine(its.switches, its.costs).slope;
     }
   }
   return all;
