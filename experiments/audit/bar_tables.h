@@ -16,7 +16,7 @@ namespace irk::audit {
 ///   sharp_runs, sharp_10, sharp_median, sharp_90, sharp_share   bar / true error: its 10th and 90th percentile, and
 ///                                          the part between kSharpFrom and kSharpTo
 ///   near_runs, false_alarms, false_share   runs to the end with an error below kRightTolerances
-///   cost_runs, cost_median                 CPU time of the second integration / that of the first
+///   cost_runs, cost_median                 CPU time of the integrations that measure / that of the run
 Table errorBarTable(const std::filesystem::path& audit);
 
 /// audit_own_word.csv: one row per integrator, ours by configuration and those of other libraries, over all scenes and

@@ -13,7 +13,7 @@
 //   error
 //                 is at least 1e-12 and ten accuracies of the reference. Asked: a median of 0.5 to 2 by configuration
 //                 and by collection of scenes, and 90 % in 0.1 to 10.
-//   cost          CPU time of the second integration over that of the first. Asked: a median of at most 1.3, for
+//   cost          CPU time of the integrations that measure over that of the run. Asked: a median of at most 1.3, for
 //                 variable order 1.1.
 //   false alarms  runs to the end whose true error in u, v and x is below 100 tolerances and that end as anything but
 //                 success, over all runs with such an error. Asked: at most 0.2 %.

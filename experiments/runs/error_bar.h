@@ -24,7 +24,7 @@ struct RunErrorBar {
   std::string remark;   ///< what a known bar may not show, in one line
   /// The one of the two that there is, or nothing.
   const std::string& told() const { return problem.empty() ? remark : problem; }
-  double cpu_s = tolerances;  ///< of the second integration, without what is made before it
+  double cpu_s = tolerances;  ///< of the integrations that measure it, without what is made before them
 };
 
 /// The run that measures the error of a run with this resolved spec: the other family of Radau IIA and Lobatto IIIC
@@ -40,7 +40,7 @@ enum class IndependentFamily { kRadauIIA, kLobattoIIIC };
 /// reference.
 RunSpec strictRun(const RunSpec& question, IndependentFamily family, double tolerance, double h_max);
 
-/// Callbacks of the second integration, before each of its steps.
+/// Callbacks of the integrations that measure, before each of their steps.
 struct MeasuringWatch {
   /// kSuccess: it goes on. Else it ends with that outcome.
   std::function<Outcome()> interrupt;
@@ -49,8 +49,9 @@ struct MeasuringWatch {
 };
 
 /// Measures the error of `solution`, the result of a run with the resolved `spec`, by an integration of
-/// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. With
-/// ErrorBarUse::kRefined the solution takes the state of the second integration. Real: double or BigFloat, as the
+/// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. A bar that
+/// asksForStricter is measured again by independentSpec of the second run. With ErrorBarUse::kRefined the solution takes
+/// the state of the strictest integration that succeeds. Real: double or BigFloat, as the
 /// spec's scalar.
 template <class Real>
 RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
