@@ -10,11 +10,10 @@
 //                 where accuracy is that of the reference. Runs that are set aside as ill-conditioned count as well: an
 //                 error bar is there to say that a motion multiplies errors. Asked: 99.9 % of the successes.
 //   sharpness     bar / true error of a success, both the largest |e| / max(|y|, scale) over u, v and x, where the
-//   error
-//                 is at least 1e-12 and ten accuracies of the reference. Asked: a median of 0.5 to 2 by configuration
-//                 and by collection of scenes, and 90 % in 0.1 to 10.
+//                 error is at least 1e-12 and ten accuracies of the reference. Asked: a median of 0.5 to 2 by
+//                 configuration and by collection of scenes, and 90 % in 0.1 to 10.
 //   cost          CPU time of the integrations that measure over that of the run. Asked: a median of at most 1.3, for
-//                 variable order 1.1.
+//                 variable order 1.1. Since 2026-11-28 it has the time of the third integration of large bars.
 //   false alarms  runs to the end whose true error in u, v and x is below 100 tolerances and that end as anything but
 //                 success, over all runs with such an error. Asked: at most 0.2 %.
 //                 Changed on 2026-11-26, after the first draws: a component's tolerance is atol scale + rtol |ref|, as

@@ -50,9 +50,8 @@ struct MeasuringWatch {
 
 /// Measures the error of `solution`, the result of a run with the resolved `spec`, by an integration of
 /// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. A bar that
-/// asksForStricter is measured again by independentSpec of the second run. With ErrorBarUse::kRefined the solution takes
-/// the state of the strictest integration that succeeds. Real: double or BigFloat, as the
-/// spec's scalar.
+/// asksForStricter is measured again by independentSpec of the second run. With ErrorBarUse::kRefined the solution
+/// takes the state of the strictest integration that succeeds. Real: double or BigFloat, as the spec's scalar.
 template <class Real>
 RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
                              const MeasuringWatch& watch);
