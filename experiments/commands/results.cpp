@@ -148,7 +148,7 @@ int mergeCommand(MergeOptions options, Streams streams) {
     return 1;
   }
   for (const auto& store : stores) merged.takeOver(*store);
-  merged.exportTables(keys, streams.err);
+  merged.exportTables(keys);
   keepFigures(figures, folder);
   const RunFile runs(folder / "runs.csv");
   writeSummaries(study, runs, folder, streams.err);

@@ -145,7 +145,7 @@ void timeTogether(const Study& study, const RunKeys& keys, const RunnerOptions& 
     store.reset();
     store.emplace(studyFolder(study, options), study.id, store::Use::kWrite, options.store, err);
   }
-  store->exportTables(keys, err);
+  store->exportTables(keys);
 }
 
 // What other ranks have made must be where this one reads.
@@ -176,7 +176,7 @@ RunKeys makeAllRuns(const Study& study, const RunnerOptions& options, Ranks& ran
   }
   recordSkippedRuns(study, keys, *store);
   if (ranks.count() > 1) requireRowsOfAll(study, keys, *store);
-  store->exportTables(keys, err);
+  store->exportTables(keys);
   return keys;
 }
 

@@ -10,7 +10,7 @@ namespace irk::store {
 namespace {
 
 constexpr std::size_t kDigits = 16;
-constexpr std::string_view kNamesMark = ",checksum:";
+constexpr std::string_view kRowMark = ",", kNamesMark = ",checksum:";
 
 // The odd number next to 2^64 divided by the golden ratio (Knuth, The Art of Computer Programming 3, 6.4).
 constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
@@ -40,6 +40,19 @@ bool isChecksumOf(std::string_view line, std::string_view digits) {
   return given == checksum(line);
 }
 
+std::string sealed(std::string_view line, std::string_view mark) {
+  return fmt::format("{}{}{:016x}", line, mark, checksum(line));
+}
+
+bool check(std::string_view& line, std::string_view mark) {
+  if (line.size() < mark.size() + kDigits) return false;
+  const auto before = line.substr(0, line.size() - mark.size() - kDigits);
+  const auto end = line.substr(before.size());
+  if (!end.starts_with(mark) || !isChecksumOf(before, end.substr(mark.size()))) return false;
+  line = before;
+  return true;
+}
+
 }  // namespace
 
 // Words are added to two sums in turn, because the processor multiplies the next one before the last one is ready.
@@ -61,25 +74,9 @@ std::uint64_t checksum(std::string_view bytes) {
   return with(even, odd);
 }
 
-std::string sealedRow(std::string_view line) { return fmt::format("{},{:016x}", line, checksum(line)); }
-
-std::string sealedNames(std::string_view line) { return fmt::format("{}{}{:016x}", line, kNamesMark, checksum(line)); }
-
-Seal checkRow(std::string_view& line) {
-  if (line.size() <= kDigits || line[line.size() - kDigits - 1] != ',') return Seal::kNone;
-  const auto before = line.substr(0, line.size() - kDigits - 1);
-  if (!isChecksumOf(before, line.substr(line.size() - kDigits))) return Seal::kWrong;
-  line = before;
-  return Seal::kRight;
-}
-
-Seal checkNames(std::string_view& line) {
-  const auto at = line.rfind(kNamesMark);
-  if (at == line.npos) return Seal::kNone;
-  const auto before = line.substr(0, at), digits = line.substr(at + kNamesMark.size());
-  if (digits.size() != kDigits || !isChecksumOf(before, digits)) return Seal::kWrong;
-  line = before;
-  return Seal::kRight;
-}
+std::string sealedRow(std::string_view line) { return sealed(line, kRowMark); }
+std::string sealedNames(std::string_view line) { return sealed(line, kNamesMark); }
+bool checkRow(std::string_view& line) { return check(line, kRowMark); }
+bool checkNames(std::string_view& line) { return check(line, kNamesMark); }
 
 }  // namespace irk::store

@@ -15,18 +15,11 @@ std::uint64_t checksum(std::string_view bytes);
 /// The line of a row, without a line end, with a last cell of 16 hexadecimal digits: the checksum of what stands before
 /// its comma.
 std::string sealedRow(std::string_view line);
-/// The line of column names with a last cell `checksum:` and 16 digits. It tells a part with checksums from a former
-/// one.
+/// The line of column names with a last cell `checksum:` and 16 digits.
 std::string sealedNames(std::string_view line);
 
-/// What a line says of itself.
-enum class Seal {
-  kNone,   ///< no cell of a checksum
-  kWrong,  ///< the line has changed since it was written
-  kRight,
-};
-/// Removes the checksum from `line` if it is right.
-Seal checkRow(std::string_view& line);
-Seal checkNames(std::string_view& line);
+/// Whether the line ends with its checksum, as sealedRow or sealedNames has written it; if so, removes it.
+bool checkRow(std::string_view& line);
+bool checkNames(std::string_view& line);
 
 }  // namespace irk::store

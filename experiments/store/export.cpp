@@ -120,26 +120,18 @@ TableHead Store::head(const Origins& origins, const std::string& refusal) const 
   return head;
 }
 
-void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused, std::ostream& messages) {
+void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const {
   const Table names{{}, runs_.columns(), {}};
-  RowKeys keys_of_settings(runs_.columns());
-  std::vector<std::string_view> cells;
   writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
     auto columns = runs_.columns();
     if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
     out << startOf(head, columns);
     forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
-      const std::string text = runs_.csv(entry, cells);
-      if (!runs_.isOwn(entry) && keys_of_settings.keyOf(cells) != entry.key) {
-        runs_.setAside(entry, "its key is not that of its settings", messages);
-        wrong_keys_.insert(entry.key);
-        return;
-      }
       const bool times_count = !times_refused && (options_.times == Times::kAll || timedHere(entry));
       if (times_count) {
-        out << text;
+        out << runs_.csv(entry);
       } else {
-        TableRow row = plainRow(cells);
+        TableRow row = runs_.row(entry);
         forgetTiming(names, row);
         out << csvLine(row);
       }
@@ -169,14 +161,10 @@ void Store::exportAll(const Rows& rows, const std::string& name) const {
   });
 }
 
-std::string Store::exportTables(const RunKeys& keys, std::ostream& messages) {
-  std::string refusal;
-  for (auto wrong = wrong_keys_.size() + 1; wrong != wrong_keys_.size();) {  // once more without rows found to be wrong
-    wrong = wrong_keys_.size();
-    const Origins origins = originsOf(keys);
-    refusal = origins.refusalOfTimes();
-    exportRuns(keys, head(origins, refusal), !refusal.empty(), messages);
-  }
+std::string Store::exportTables(const RunKeys& keys) const {
+  const Origins origins = originsOf(keys);
+  std::string refusal = origins.refusalOfTimes();
+  exportRuns(keys, head(origins, refusal), !refusal.empty());
   exportAll(environments_, "environments");
   if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
   if (timing_cores_.size() > 0) exportAll(timing_cores_, "timing_cores");

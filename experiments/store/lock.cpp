@@ -70,12 +70,9 @@ Holder readHolder(const std::filesystem::path& file) {
   holder.text = {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   std::istringstream words(holder.text);
   Holder read;
-  if (words >> read.host >> read.process >> read.date) {
-    read.text = holder.text;
-    if (!(words >> read.start)) read.start = holder.start;  // of a former version
-    return read;
-  }
-  return holder;
+  if (!(words >> read.host >> read.process >> read.date >> read.start)) return holder;
+  read.text = holder.text;
+  return read;
 }
 
 // Renaming is atomic: if two processes find a lock whose holder has ended, only one gets it. If the lock that it gets

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "experiments/base/failure.h"
-#include "experiments/runs/block_names.h"
 #include "experiments/store/checksum.h"
 #include "experiments/tables/environment.h"
 
@@ -51,44 +50,16 @@ std::string oneLine(const TableRow& row) {
   throw Failure(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
 }
 
-/// Reads the lines of one part.
-class PartLines {
- public:
-  PartLines(const std::vector<std::string>& columns, const std::function<std::string(const WrittenRow&)>& take)
-      : columns_(columns), take_(take) {}
+std::string_view withoutReturn(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
 
-  /// Sets the reading's `names`, and `sealed`.
-  void readNames(std::string_view text, bool cut) {
-    const Seal seal = checkNames(text);
-    reading.sealed = seal != Seal::kNone;
-    using Names = PartReading::Names;
-    if (seal == Seal::kWrong || cut || !splitLine(text, cells_)) {
-      reading.names = Names::kDamaged;
-      return;
-    }
-    TableRow header = plainRow(cells_);
-    width_ = header.size();
-    if (header.back() == kBlockColumn) header.pop_back();  // the table was exported
-    reading.names = header == columns_ ? Names::kThese : Names::kOthers;
-  }
-
-  /// Why the line is not read; empty if it is.
-  std::string readRow(std::string_view text, bool cut, std::uint64_t offset) {
-    if (cut) return "it has no line end";
-    if (reading.sealed && checkRow(text) != Seal::kRight) return "its checksum is wrong";
-    if (!splitLine(text, cells_)) return "a quote is unbalanced";
-    if (cells_.size() != width_) return fmt::format("it has {} cells, the columns are {}", cells_.size(), width_);
-    return take_({cells_, offset, reading.sealed});
-  }
-
-  PartReading reading;
-
- private:
-  const std::vector<std::string>& columns_;
-  const std::function<std::string(const WrittenRow&)>& take_;
-  std::size_t width_ = 0;
-  std::vector<std::string_view> cells_;
-};
+PartReading::Names namesOf(std::string_view line, const std::vector<std::string>& columns) {
+  std::vector<std::string_view> cells;
+  if (!checkNames(line) || !splitLine(line, cells)) return PartReading::Names::kDamaged;
+  return plainRow(cells) == columns ? PartReading::Names::kThese : PartReading::Names::kOthers;
+}
 
 }  // namespace
 
@@ -121,42 +92,28 @@ TableRow plainRow(const std::vector<std::string_view>& cells) {
 }
 
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                     const std::function<std::string(const WrittenRow& row)>& take) {
+                     const TakeWritten& take) {
   std::ifstream in(file, std::ios::binary);
   if (!in) cannotReadPart(file);
-  PartLines lines(columns, take);
-  PartReading& reading = lines.reading;
+  PartReading reading;
   std::string line;
-  std::uint64_t offset = 0;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    const bool cut = in.eof();
-    const std::uint64_t start = offset;
-    offset += line.size() + 1;
-    std::string_view text = line;
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    if (reading.names == PartReading::Names::kMissing) {
-      if (!text.starts_with('#')) lines.readNames(text, cut);
-      continue;
-    }
-    if (reading.names != PartReading::Names::kThese) break;
-    std::string why = lines.readRow(text, cut, start);
+  if (!std::getline(in, line)) return reading;
+  reading.names = namesOf(withoutReturn(line), columns);
+  std::uint64_t offset = line.size() + 1;
+  std::vector<std::string_view> cells;
+  const auto problemOf = [&](std::string_view text) -> std::string {
+    if (in.eof()) return "it has no line end";
+    if (!checkRow(text)) return "its checksum is wrong";
+    if (!splitLine(text, cells) || cells.size() != columns.size()) return "its cells are not those of the columns";
+    return take(cells, offset);
+  };
+  const bool reads = reading.names == PartReading::Names::kThese;
+  for (std::size_t number = 2; reads && std::getline(in, line); ++number) {
+    std::string why = problemOf(withoutReturn(line));
     if (!why.empty()) reading.damaged.push_back({number, line, std::move(why)});
+    offset += line.size() + 1;
   }
-  return std::move(reading);
-}
-
-void writeSealed(const std::filesystem::path& table, const std::vector<std::string>& columns,
-                 const std::filesystem::path& part) {
-  std::ofstream out(part, std::ios::binary);
-  out << sealedNames(csvLine(columns)) << '\n';
-  readPart(table, columns, [&](const WrittenRow& row) {
-    std::string_view text = row.text();
-    const bool has_blocks = row.cells.size() > columns.size();
-    if (has_blocks) text.remove_suffix(row.cells.back().size() + 1);
-    out << sealedRow(text) << '\n';
-    return std::string();
-  });
-  if (!out.flush()) cannotWritePart(part);
+  return reading;
 }
 
 std::uint64_t numberOfPart(const std::filesystem::path& part) {

@@ -20,8 +20,8 @@ bool splitLine(std::string_view line, std::vector<std::string_view>& cells);
 std::string plainCell(std::string_view written);
 TableRow plainRow(const std::vector<std::string_view>& cells);
 
-/// A line that is not read, and why: its checksum is wrong, a quote is unbalanced, the number of cells is wrong, the
-/// last line has no line end, or `take` has refused its row.
+/// A line that is not read, and why: its checksum is wrong, its cells are not those of the columns, the last line has
+/// no line end, or `take` has refused its row.
 struct DamagedLine {
   std::size_t line;  ///< counts from 1
   std::string text;
@@ -29,44 +29,29 @@ struct DamagedLine {
 };
 
 struct PartReading {
-  /// What the line of column names says; none of the rows are read unless it is kThese.
+  /// What the line of column names says; none of the rows are read unless it is kThese. kMissing: the file is empty.
+  /// kDamaged: the line has no checksum, or a wrong one.
   enum class Names { kMissing, kThese, kOthers, kDamaged };
   Names names = Names::kMissing;
-  bool sealed = false;  ///< its lines have checksums (checksum.h)
   std::vector<DamagedLine> damaged;
 };
 
-/// A row of a part as it is written, without its checksum.
-struct WrittenRow {
-  const std::vector<std::string_view>& cells;  ///< quotes included; of one text, so that commas stand between them
-  std::uint64_t offset;                        ///< the bytes before the row
-  bool sealed;                                 ///< its checksum was right; otherwise the part has none
+/// Takes a row: its cells as they are written, without the checksum, and the number of bytes before it. Returns why it
+/// refuses the row, or an empty text.
+using TakeWritten = std::function<std::string(const std::vector<std::string_view>& cells, std::uint64_t offset)>;
 
-  std::string_view text() const {
-    return {cells.front().data(),
-            static_cast<std::size_t>(cells.back().data() + cells.back().size() - cells[0].data())};
-  }
-};
-
-/// Calls `take` for every row in order; it returns why it refuses the row, or an empty text. A table that was exported
-/// has one cell more, its blocks. Each row is one line, so damage never spreads to other rows. Throws Failure if the
-/// file cannot be read.
+/// Calls `take` for every row in order. Each row is one line, so damage never spreads to other rows. Throws Failure if
+/// the file cannot be read.
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                     const std::function<std::string(const WrittenRow& row)>& take);
+                     const TakeWritten& take);
 
-/// Writes a table without checksums as a part; lines that readPart does not read are left out. Throws Failure.
-void writeSealed(const std::filesystem::path& table, const std::vector<std::string>& columns,
-                 const std::filesystem::path& part);
-
-/// The number of a part, the second word of its name: 12 for `runs.0012.host.4711.csv`; 0 for other names, as those
-/// that former versions gave.
+/// The number of a part, the second word of its name: 12 for `runs.0012.host.4711.csv`; 0 for other names.
 std::uint64_t numberOfPart(const std::filesystem::path& part);
 
 /// The name of a new part of this process without `.csv`: `runs.0012.host.4711`, the table, `number`, host and process.
 std::string partName(std::string_view table, std::uint64_t number);
 
 /// The parts <table>.*.csv in a folder, in the order in which they were begun: by their numbers, then by their names.
-/// Names without a number come first; they begin with the date of their writer.
 std::vector<std::filesystem::path> partsInOrder(const std::filesystem::path& folder, std::string_view table);
 
 /// Appends rows with checksums to a file that belongs to this process and is created with the first row. Each row is

@@ -9,12 +9,11 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <ostream>
-#include <set>
-#include <sstream>
 #include <tuple>
 
 #include "core/base/input_file.h"
@@ -43,32 +42,15 @@ std::string contentsOf(const std::filesystem::path& file) {
 
 std::filesystem::path asideOf(std::filesystem::path part) { return part.replace_extension(".damaged"); }
 
-std::string asideLine(std::size_t number, std::string_view line) { return fmt::format("line {}: {}\n", number, line); }
-
 std::string asideText(const std::vector<DamagedLine>& damaged) {
   std::string text;
-  for (const auto& line : damaged) text += asideLine(line.line, line.text);
+  for (const auto& line : damaged) text += fmt::format("line {}: {}\n", line.line, line.text);
   return text;
 }
 
-void writeAside(const std::filesystem::path& file, const std::string& text, std::ios::openmode mode) {
-  std::ofstream out(file, std::ios::binary | std::ios::out | mode);
+void writeAside(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
   if (!(out << text).flush()) throw Failure(fmt::format("cannot write {}", file.string()));
-}
-
-// The rows that a file of lines set aside contains, without their checksums.
-std::set<std::string> rowsIn(const std::string& aside) {
-  std::set<std::string> rows;
-  std::istringstream in(aside);
-  for (std::string line; std::getline(in, line);) {
-    std::string_view row = line;
-    const auto number_end = row.find(": ");
-    if (number_end == row.npos) continue;
-    row.remove_prefix(number_end + 2);
-    checkRow(row);
-    rows.emplace(row);
-  }
-  return rows;
 }
 
 // `3, 6 and 10: its checksum is wrong; 12: it has no line end`: the lines by their reasons, up to kShownLines of them.
@@ -105,13 +87,18 @@ struct Rows::Columns {
 
 std::uint64_t keyNumber(std::string_view key) { return numberOf<std::uint64_t>(key, 16); }
 
+std::uint32_t secondsOf(std::string_view date) {
+  std::tm time{};
+  const bool is_date = strptime(std::string(date).c_str(), "%Y-%m-%dT%H:%M:%SZ", &time) != nullptr;
+  return is_date ? static_cast<std::uint32_t>(timegm(&time)) : 0;
+}
+
 Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<std::string> columns,
            std::string_view code)
     : folder_(folder / "parts"),
       name_(std::move(name)),
       columns_(std::move(columns)),
       at_(std::make_unique<Columns>(columns_)),
-      kinds_(columns_),
       names_(1),
       current_(idOf(at_->code < columns_.size() ? code : "")),
       index_([this](const Entry& a, const Entry& b) { return better(a, b); }) {}
@@ -143,7 +130,7 @@ std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
   if (!parseKey(cells.front(), entry.key)) return {};
   const auto cell = [&cells](std::size_t at) { return at < cells.size() ? cells[at] : std::string_view(); };
   entry.date = secondsOf(cell(at_->date));
-  entry.request = requestOf(cell(at_->remade));
+  entry.request = numberOf<std::uint32_t>(cell(at_->remade));
   entry.repetitions = numberOf<std::uint16_t>(cell(at_->repetitions));
   entry.code = idOf(cell(at_->code));
   entry.environment = idOf(cell(at_->environment));
@@ -152,36 +139,27 @@ std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
   return entry;
 }
 
-std::string Rows::add(const WrittenRow& row, std::uint32_t part) {
-  if (!row.sealed) {
-    auto problem = kinds_.problemOf(row.cells);
-    if (!problem.empty()) return problem;
-  }
-  auto entry = entryOf(row.cells);
-  if (!entry) return fmt::format("'{}' is no key of 16 hexadecimal digits", row.cells.front());
-  entry->part = part;
-  entry->offset = row.offset;
-  index_.add(*entry);
-  return {};
-}
-
 void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages) {
   const auto aside = asideOf(file);
   const std::string known = std::filesystem::exists(aside) ? contentsOf(aside) : "";
-  const auto set_aside = rowsIn(known);
-  const PartReading reading = readPart(file, columns_, [&](const WrittenRow& row) {
-    const bool refused = !set_aside.empty() && set_aside.contains(std::string(row.text()));
-    return refused ? std::string("it was set aside") : add(row, part);
+  const PartReading reading = readPart(file, columns_, [&](const auto& cells, std::uint64_t offset) -> std::string {
+    auto entry = entryOf(cells);
+    if (!entry) return fmt::format("'{}' is no key of 16 hexadecimal digits", cells.front());
+    entry->part = part;
+    entry->offset = offset;
+    index_.add(*entry);
+    return {};
   });
-  sealed_[part] = reading.sealed;
   using Names = PartReading::Names;
   if (reading.names == Names::kOthers) {
     fmt::print(messages, "{}: its columns are not those of this version; it is kept, its rows are not used\n",
                file.string());
   } else if (reading.names == Names::kDamaged) {
-    fmt::print(messages,
-               "{}: the line of its column names is damaged; it is kept, its rows are not used and are made again\n",
-               file.string());
+    fmt::print(
+        messages,
+        "{}: the line of its column names has no checksum, or a wrong one; it is kept, its rows are not used and "
+        "are made again\n",
+        file.string());
   }
   damaged_ += reading.damaged.size();
   if (reading.damaged.empty()) return;
@@ -191,17 +169,14 @@ void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage
   if (damage == Damage::kReport) {
     fmt::print(messages, "{}\n", what);
   } else if (known != text) {
-    writeAside(aside, text, std::ios::trunc);
+    writeAside(aside, text);
     fmt::print(messages, "{}: they are set aside in {}; all other rows count\n", what, aside.filename().string());
   }
 }
 
 void Rows::read(Damage damage, std::ostream& messages) {
   parts_ = partsInOrder(folder_, name_);
-  const auto exported = folder_.parent_path() / (name_ + ".csv");
-  if (parts_.empty() && std::filesystem::exists(exported)) parts_.push_back(exported);
   for (const auto& part : parts_) requireRegularFile(part);
-  sealed_.assign(parts_.size(), false);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
   }
@@ -217,10 +192,7 @@ void Rows::append(const TableRow& row) {
     writer_.emplace(folder_, partName(name_, last + 1), columns_);
   }
   entry->offset = writer_->append(row);
-  if (parts_.empty() || parts_.back() != writer_->file()) {
-    parts_.push_back(writer_->file());
-    sealed_.push_back(true);
-  }
+  if (parts_.empty() || parts_.back() != writer_->file()) parts_.push_back(writer_->file());
   entry->part = static_cast<std::uint32_t>(parts_.size() - 1);
   index_.put(*entry);
 }
@@ -254,7 +226,8 @@ std::string_view Rows::readBlock(const Entry& entry, std::size_t size) const {
   return block_.bytes;
 }
 
-std::string Rows::line(const Entry& entry) const {
+// Without its checksum; until the next call.
+std::string_view Rows::line(const Entry& entry) const {
   constexpr std::size_t kUsual = 2048, kAhead = 1 << 16;
   std::string_view text = block_.from(entry);
   std::size_t end = text.find('\n');
@@ -268,42 +241,17 @@ std::string Rows::line(const Entry& entry) const {
   }
   text = text.substr(0, end);
   if (text.ends_with('\r')) text.remove_suffix(1);
-  return std::string(text);
-}
-
-void Rows::split(const Entry& entry, std::string_view line, std::vector<std::string_view>& cells) const {
-  const bool is_right = !sealed_[entry.part] || checkRow(line) == Seal::kRight;
-  if (!is_right || !splitLine(line, cells) || cells.size() < columns_.size()) {
+  if (!checkRow(text))
     throw Failure(fmt::format("{}: a row has changed since it was read", parts_[entry.part].string()));
-  }
-  cells.resize(columns_.size());  // drops the block column of an exported table
-}
-
-TableRow Rows::row(const Entry& entry) const {
-  const std::string text = line(entry);
-  std::vector<std::string_view> cells;
-  split(entry, text, cells);
-  return plainRow(cells);
-}
-
-std::string Rows::csv(const Entry& entry, std::vector<std::string_view>& cells) const {
-  std::string text = line(entry);
-  split(entry, text, cells);
-  text.resize(static_cast<std::size_t>(cells.back().data() + cells.back().size() - text.data()));
   return text;
 }
 
-void Rows::setAside(const Entry& entry, const std::string& why, std::ostream& messages) const {
-  const auto& part = parts_[entry.part];
-  const std::string before = contentsOf(part).substr(0, entry.offset);
-  const auto number = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-  writeAside(asideOf(part), asideLine(number, line(entry)), std::ios::app);
-  fmt::print(messages, "{}: line {}: {}: it is set aside in {}, and its run is made again by the next irk run\n",
-             part.string(), number, why, asideOf(part).filename().string());
+TableRow Rows::row(const Entry& entry) const {
+  std::vector<std::string_view> cells;
+  splitLine(line(entry), cells);
+  return plainRow(cells);
 }
 
-std::size_t Rows::unsealedParts() const {
-  return static_cast<std::size_t>(std::count(sealed_.begin(), sealed_.end(), false));
-}
+std::string Rows::csv(const Entry& entry) const { return std::string(line(entry)); }
 
 }  // namespace irk::store

@@ -16,13 +16,15 @@
 
 #include "experiments/store/entry_index.h"
 #include "experiments/store/part.h"
-#include "experiments/store/row_checks.h"
 #include "experiments/tables/table.h"
 
 namespace irk::store {
 
 /// The number that the hexadecimal text `0123456789abcdef` stands for.
 std::uint64_t keyNumber(std::string_view key);
+
+/// Seconds since 1970 of `2026-01-31T12:00:00Z`; 0 for other text.
+std::uint32_t secondsOf(std::string_view date);
 
 /// The rows of parts/<name>.*.csv by the key in their first column, 16 hexadecimal digits or fewer. If several rows
 /// have one key, one of them is valid, by these criteria in order:
@@ -40,9 +42,8 @@ class Rows {
   Rows(const std::filesystem::path& folder, std::string name, std::vector<std::string> columns, std::string_view code);
   ~Rows();
 
-  /// Reads all parts; if there are none, the exported <name>.csv. Rows of parts without checksums must have cells of
-  /// their columns' kinds (CellKinds). kSetAside copies unreadable lines to parts/<part>.damaged; what stands there is
-  /// not read again. Reports each new damage, and parts with other columns, with a line on `messages`. Throws Failure.
+  /// Reads all parts. kSetAside copies unreadable lines to parts/<part>.damaged and reports new ones, kReport reports
+  /// all, with a line on `messages`, as for parts with other columns. Throws Failure.
   enum class Damage { kReport, kSetAside };
   void read(Damage damage, std::ostream& messages);
 
@@ -60,14 +61,7 @@ class Rows {
   const std::string& name(std::uint16_t id) const { return names_[id]; }
   TableRow row(const Entry& entry) const;
   /// The cells of `row` as they are written, with commas between them: what csvLine(row) gives, in less time.
-  std::string csv(const Entry& entry) const { return csv(entry, cells_); }
-  /// `cells` become those of the returned text.
-  std::string csv(const Entry& entry, std::vector<std::string_view>& cells) const;
-  /// Whether this object has appended the row.
-  bool isOwn(const Entry& entry) const { return writer_ && parts_[entry.part] == writer_->file(); }
-
-  /// Copies the row to parts/<part>.damaged, so that it is not read again, and says why on `messages`. The entry stays.
-  void setAside(const Entry& entry, const std::string& why, std::ostream& messages) const;
+  std::string csv(const Entry& entry) const;
 
   /// The row is in the file when this returns; the destructor flushes it to the device. Throws Failure.
   void append(const TableRow& row);
@@ -76,20 +70,16 @@ class Rows {
   void forEach(const std::function<void(const Entry&)>& take) const { index_.forEach(take); }
   /// The number of lines that could not be read.
   std::size_t damaged() const { return damaged_; }
-  /// The number of parts without checksums, of a former version.
-  std::size_t unsealedParts() const;
 
  private:
   struct Columns;
   bool better(const Entry& a, const Entry& b) const;
-  std::string add(const WrittenRow& row, std::uint32_t part);
   std::optional<Entry> entryOf(const std::vector<std::string_view>& cells);
   std::uint16_t idOf(std::string_view name);
   void readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages);
   int descriptor(std::uint32_t part) const;
   std::string_view readBlock(const Entry& entry, std::size_t size) const;
-  std::string line(const Entry& entry) const;
-  void split(const Entry& entry, std::string_view line, std::vector<std::string_view>& cells) const;
+  std::string_view line(const Entry& entry) const;
 
   /// The bytes of a part that were read last.
   struct Block {
@@ -113,9 +103,7 @@ class Rows {
   std::string name_;
   std::vector<std::string> columns_;
   std::unique_ptr<Columns> at_;
-  CellKinds kinds_;
   std::vector<std::filesystem::path> parts_;
-  std::vector<bool> sealed_;  // of each part, whether its lines have checksums
   std::vector<std::string> names_;
   std::uint16_t current_;
   EntryIndex index_;
@@ -124,7 +112,6 @@ class Rows {
   mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed
   mutable std::size_t open_ = 0;
   mutable Block block_;
-  mutable std::vector<std::string_view> cells_;  // of one row
 };
 
 }  // namespace irk::store

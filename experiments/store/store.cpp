@@ -1,21 +1,17 @@
 #include "experiments/store/store.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
-#include <map>
-#include <ostream>
 #include <tuple>
 #include <utility>
 
-#include "experiments/base/failure.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/store/row_checks.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
-#include "experiments/tables/new_file.h"
+#include "experiments/tables/table_rows.h"
 #include "experiments/tables/timing_class.h"
+#include "irk/misuse.h"
 #include "irk/outcome.h"
 
 namespace irk::store {
@@ -25,16 +21,6 @@ constexpr const char* kTables[] = {"runs", "states", "environments", "calibratio
 
 std::vector<std::string> stateColumns() { return {"key", "state", "bar", "code", "date"}; }
 
-// The first unused name among runs.old.csv, runs.old2.csv, ...
-std::filesystem::path freeName(const std::filesystem::path& file) {
-  std::filesystem::path to;
-  for (int i = 1; to.empty() || std::filesystem::exists(to); ++i) {
-    to = file;
-    to.replace_extension(fmt::format("old{}{}", i == 1 ? "" : std::to_string(i), file.extension().string()));
-  }
-  return to;
-}
-
 // The number of a new request to make runs again: one above all former ones.
 std::uint32_t nextRequest(const Rows& runs) {
   std::uint32_t last = 0;
@@ -42,8 +28,16 @@ std::uint32_t nextRequest(const Rows& runs) {
   return last + 1;
 }
 
-// Of runs: a table that is taken in has no part of runs until all its other tables have one.
-bool hasParts(const std::filesystem::path& folder) { return !partsInOrder(folder / "parts", kTables[0]).empty(); }
+// An interrupt before the end of the first run leaves a table without rows and without parts.
+void requireParts(const std::filesystem::path& folder) {
+  const auto table = folder / "runs.csv";
+  if (!partsInOrder(folder / "parts", kTables[0]).empty() || !std::filesystem::exists(table)) return;
+  if (!TableFile(table).next()) return;
+  throw Misuse(fmt::format(
+      "{}: a table without its parts, {}: it was copied here, or they were removed. Its rows cannot be continued: copy "
+      "the whole folder, or remove the table to make its runs again",
+      table.string(), (folder / "parts" / "runs.*.csv").string()));
+}
 
 }  // namespace
 
@@ -57,61 +51,16 @@ Store::Store(std::filesystem::path folder, std::string study, Use use, const Sto
       environments_(folder_, kTables[2], environmentColumns(), ""),
       calibrations_(folder_, kTables[3], calibrationColumns(), ""),
       timing_cores_(folder_, kTables[4], coresColumns(), "") {
-  if (use == Use::kWrite) {
-    lock_.emplace(folder_, options.if_locked, messages);
-    adoptFormerTable(messages);
-  }
+  if (use == Use::kWrite) lock_.emplace(folder_, options.if_locked, messages);
+  requireParts(folder_);
   const auto damage = use == Use::kWrite ? Rows::Damage::kSetAside : Rows::Damage::kReport;
-  std::size_t unsealed = 0;
-  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_, &timing_cores_}) {
-    rows->read(damage, messages);
-    unsealed += rows->unsealedParts();
-  }
+  for (auto* rows : {&runs_, &states_, &environments_, &calibrations_, &timing_cores_}) rows->read(damage, messages);
   if (options_.finished == FinishedRuns::kRunAgain) request_ = nextRequest(runs_);
-  if (use != Use::kWrite || unsealed == 0) return;
-  fmt::print(messages,
-             "{}: {} of its parts are of a former version and have no checksums: their rows are checked by their cells "
-             "and keys only. irk merge {} --results OTHER writes them with checksums\n",
-             folder_.string(), unsealed, folder_.string());
-}
-
-// Handles exported tables without parts: they were copied here, or written by a version that had no parts. After an
-// interrupt before the end of the first run the table has no rows.
-void Store::adoptFormerTable(std::ostream& messages) {
-  const auto file = folder_ / "runs.csv";
-  if (hasParts(folder_) || !std::filesystem::is_regular_file(file)) return;
-  std::size_t rows = 0;
-  const auto reading = readPart(file, runColumns(), [&rows](const WrittenRow&) {
-    ++rows;
-    return std::string();
-  });
-  if (reading.names != PartReading::Names::kThese) {
-    const auto to = freeName(file);
-    std::filesystem::rename(file, to);
-    fmt::print(messages, "{}: written by another version, its runs are made again; the old table is kept as {}\n",
-               file.string(), to.filename().string());
-    return;
-  }
-  if (rows == 0) return;
-  std::filesystem::create_directories(folder_ / "parts");
-  for (const auto* table : {&timing_cores_, &calibrations_, &environments_, &states_, &runs_}) {
-    const auto from = folder_ / (table->kind() + ".csv");
-    if (!std::filesystem::is_regular_file(from)) continue;
-    const auto part = folder_ / "parts" / (partName(table->kind(), 1) + ".taken_in.csv");
-    const auto beside = newBeside(part);
-    writeSealed(from, table->columns(), beside);
-    std::filesystem::rename(beside, part);
-  }
-  fmt::print(
-      messages,
-      "{}: a table of {} runs without its parts (the folder parts/ beside it has none): it was copied here, or "
-      "they were removed. Its runs are taken in to parts/ and count as finished; to make them again use --fresh\n",
-      file.string(), rows);
 }
 
 std::optional<Entry> Store::finished(std::uint64_t key) const {
   const auto entry = runs_.find(key);
-  if (!entry || wrong_keys_.contains(key)) return {};
+  if (!entry) return {};
   if (options_.stale == StaleRows::kRemake && !runs_.isCurrent(*entry)) return {};
   const bool made_before = entry->request < request_ || !runs_.isCurrent(*entry);
   if (options_.finished == FinishedRuns::kRunAgain && made_before) return {};
@@ -145,7 +94,6 @@ void Store::addRun(TableRow row) {
   const auto before = runs_.find(key);
   const std::uint32_t request = std::max(request_, before ? before->request : 0);
   if (request > 0) row.back() = std::to_string(request);
-  wrong_keys_.erase(key);
   runs_.append(row);
 }
 
@@ -181,8 +129,7 @@ std::size_t Store::takeOver(const Store& other) {
 
 void Store::forEachRun(const RunKeys& keys, const TakeRun& take) const {
   keys.forEach([&](std::uint64_t key, const std::string& blocks) {
-    const auto entry = runs_.find(key);
-    if (entry && !wrong_keys_.contains(key)) take(*entry, blocks);
+    if (const auto entry = runs_.find(key)) take(*entry, blocks);
   });
 }
 

@@ -14,7 +14,6 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -48,8 +47,8 @@ inline constexpr std::string_view kTimesRefused = "times refused";
 /// Reads and writes the rows of one study. Not thread-safe.
 class Store {
  public:
-  /// kWrite takes the folder's lock. A runs.csv of a former version, or without parts, is adopted or kept under
-  /// another name. Throws Failure, std::filesystem::filesystem_error.
+  /// kWrite takes the folder's lock. Throws Misuse if the folder has a runs.csv with rows but no parts, Failure,
+  /// std::filesystem::filesystem_error.
   Store(std::filesystem::path folder, std::string study, Use use, const StoreOptions& options, std::ostream& messages);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -87,18 +86,15 @@ class Store {
 
   /// Writes runs.csv, environments.csv and, if there are any, states.csv, calibrations.csv and timing_cores.csv: the
   /// rows of these keys in this order, with a column of blocks if the keys have them. Each file is written beside its
-  /// target and renamed. A row of runs whose key is not that of its own settings is set aside and left out, with a line
-  /// on `messages`; its run counts as not made. Returns the reason if times of several timing classes are refused, or
-  /// an empty text.
-  std::string exportTables(const RunKeys& keys, std::ostream& messages);
+  /// target and renamed. Returns the reason if times of several timing classes are refused, or an empty text.
+  std::string exportTables(const RunKeys& keys) const;
 
  private:
   void addEnvironment();
-  void adoptFormerTable(std::ostream& messages);
   struct Origins;
   Origins originsOf(const RunKeys& keys) const;
   TableHead head(const Origins& origins, const std::string& refusal) const;
-  void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused, std::ostream& messages);
+  void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const;
   void exportStates(const RunKeys& keys) const;
   void exportAll(const Rows& rows, const std::string& name) const;
 
@@ -108,7 +104,6 @@ class Store {
   std::uint32_t request_ = 0;  // the number of this request to make runs again; 0: there is none
   std::optional<Lock> lock_;
   Rows runs_, states_, environments_, calibrations_, timing_cores_;
-  std::set<std::uint64_t> wrong_keys_;  // of rows that were set aside
 };
 
 }  // namespace irk::store

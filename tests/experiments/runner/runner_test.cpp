@@ -114,7 +114,7 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
   for (const auto& part : parts) {
     joined.takeOver(store::Store(part, "", store::Use::kRead, {}, quiet));
   }
-  joined.exportTables(runKeys(small(), {}), quiet);
+  joined.exportTables(runKeys(small(), {}));
   const Table merged = readTable(folder.path() / "joined" / "runs.csv");
   const Table whole = runStudy(small(), options(folder, 1), quiet);
   const auto comparison = compared(whole, merged, {.times = 10});

@@ -23,7 +23,7 @@ struct TimedStudy {
     store::Store store = open();
     const RunKeys keys = runKeys(study, options);
     timeStudy(study, keys, store, share, told, time_call);
-    store.exportTables(keys, told);
+    store.exportTables(keys);
     return readTable(store.folder() / "runs.csv");
   }
 

@@ -53,7 +53,7 @@ TEST_F(Calibrations, StandBesideTheTimesAndInTheHead) {
   {
     Store writer(folder(), "small", Use::kWrite, {}, told_);
     timeStudy(timed, keys, writer, {}, told_);
-    writer.exportTables(keys, told_);
+    writer.exportTables(keys);
   }
   const Table measured = readTable(folder() / "calibrations.csv");
   ASSERT_GE(measured.rows.size(), 1u);
@@ -64,7 +64,7 @@ TEST_F(Calibrations, StandBesideTheTimesAndInTheHead) {
   {
     Store writer(folder(), "small", Use::kWrite, {}, told_);
     for (int i = 1; i <= 10; ++i) writer.addCalibration(i * seconds);
-    writer.exportTables(keys, told_);
+    writer.exportTables(keys);
   }
   EXPECT_TRUE(containsAll(timesDrift(folder() / "runs.csv"), {"calibrations", hostName()}));
   std::ostringstream out;
@@ -75,7 +75,7 @@ TEST_F(Calibrations, StandBesideTheTimesAndInTheHead) {
   // They are merged like rows.
   Store merged(folder("merged"), "small", Use::kWrite, {}, told_);
   merged.takeOver(reader());
-  merged.exportTables(keys, told_);
+  merged.exportTables(keys);
   EXPECT_EQ(readTable(folder("merged") / "calibrations.csv").rows.size(), measured.rows.size() + 10);
   EXPECT_NE(timesDrift(folder("merged") / "runs.csv"), "");
 }

@@ -53,18 +53,6 @@ TEST_F(SetBackClock, FreshMakesAllRunsAgain) {
   }
 }
 
-// Former versions stored the date of a request. Its seconds since 1970: date -ud 2099-01-01 +%s.
-TEST_F(SetBackClock, FreshFollowsTheDatesOfFormerVersions) {
-  run();
-  changePart("results", [](Table& part) {
-    for (auto& row : part.rows) row[part.column("remade")] = "2099-01-01T00:00:00Z";
-  });
-  EXPECT_EQ(requests(), std::set<std::string>{"2099-01-01T00:00:00Z"});
-  run("results", fresh_);
-  EXPECT_EQ(made(), 9);
-  EXPECT_EQ(requests(), std::set<std::string>{"4070908801"});
-}
-
 TEST_F(SetBackClock, EachRepetitionCounts) {
   run();
   const std::uint64_t key = anyKey();

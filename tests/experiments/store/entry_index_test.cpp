@@ -167,7 +167,7 @@ TEST(LargeStore, FindsAndExportsEveryRow) {
   Store store(folder.path(), "large", Use::kWrite, {}, quiet);
   EXPECT_EQ(store.runs().size(), keys.size());
   for (const auto key : keys) ASSERT_TRUE(store.finished(key));
-  store.exportTables(RunKeys(keys), quiet);
+  store.exportTables(RunKeys(keys));
   const Table exported = readTable(folder.path() / "runs.csv");
   ASSERT_EQ(exported.rows.size(), keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) ASSERT_EQ(exported.rows[i].front(), hexText(keys[i]));

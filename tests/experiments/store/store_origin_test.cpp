@@ -123,7 +123,7 @@ TEST_F(Origin, TimesOfTwoMachinesAreNotJoined) {
     Store writer(folder(), "small", Use::kWrite, here, told_);
     const RunKeys keys = runKeys(costs, {});
     timeStudy(costs, keys, writer, {}, told_);
-    writer.exportTables(keys, told_);
+    writer.exportTables(keys);
   }
   const Table timed = run();
   EXPECT_TRUE(refusedTimes(timed.head).empty()) << "all are of this machine now";

@@ -8,6 +8,7 @@
 
 #include "experiments/base/numbers.h"
 #include "tests/experiments/stored_runs.h"
+#include "tests/refusal.h"
 
 namespace irk {
 namespace {
@@ -31,9 +32,6 @@ TEST(Part, SecondsOfADate) {
   EXPECT_EQ(store::secondsOf("1970-01-02T00:00:01Z"), 86401u);
   EXPECT_EQ(store::secondsOf("2024-02-29T12:34:56Z"), 1709210096u);  // date -ud 2024-02-29T12:34:56 +%s
   EXPECT_EQ(store::secondsOf(""), 0u);
-  EXPECT_EQ(store::requestOf("12"), 12u);
-  EXPECT_EQ(store::requestOf("2024-02-29T12:34:56Z"), 1709210096u);
-  for (const char* none : {"", "0", "-1", "1.5", "3 times"}) EXPECT_EQ(store::requestOf(none), 0u) << none;
 }
 
 TEST_F(Results, OneDamagedLineCostsOneRow) {
@@ -73,7 +71,7 @@ TEST_F(Results, OneDamagedLineCostsOneRow) {
 TEST_F(Results, PartsOfAnotherVersionStay) {
   run();
   const auto other = folder() / "parts" / "runs.0.csv";
-  writeTable(other, {{}, {"key", "scene"}, {{"1", "kepler"}}});
+  writePartTable(other, {{}, {"key", "scene"}, {{"1", "kepler"}}});
   const auto before = readInputFile(other);
   EXPECT_EQ(run().rows.size(), 9u);
   EXPECT_TRUE(containsAll(told_.str(), {other.string(), "columns"}));
@@ -162,45 +160,27 @@ TEST_F(Results, TheExportIsInTheStudysOrderWhateverThatOfTheParts) {
 
 // --- Tables without parts.
 
-TEST_F(Results, ATableWithoutPartsIsTakenInAndExplained) {
-  const Table runs = run();
-  std::filesystem::remove_all(folder() / "parts");
-  EXPECT_EQ(run().rows, runs.rows);
-  EXPECT_TRUE(containsAll(told_.str(),
-                          {"9 runs without its parts", "copied here", "taken in", "count as finished", "--fresh"}));
-  EXPECT_EQ(made(), 0);
-  EXPECT_EQ(partsOf(folder()).size(), 1u);
-  told_.str({});
-  EXPECT_EQ(run().rows, runs.rows);
-  EXPECT_EQ(told_.str().find("without its parts"), std::string::npos) << "now it has them";
+TEST_F(Results, ATableWithoutPartsIsRefused) {
+  run();
+  const auto table = folder() / "runs.csv";
+  const std::string before = readInputFile(table);
+  for (const auto& part : partsOf(folder())) std::filesystem::remove(part);
+  for (const auto& made : {refusal([this] { run(); }), refusal([this] { reader(); })}) {
+    EXPECT_TRUE(containsAll(made, {table.string(), "without its parts", "copy the whole folder", "remove the table"}))
+        << made;
+  }
+  EXPECT_EQ(readInputFile(table), before);
+  std::filesystem::remove(table);
+  EXPECT_EQ(run().rows.size(), 9u);
 }
 
 // An interrupt before the end of the first run leaves a table without rows.
-TEST_F(Results, ATableWithoutRowsIsNotExplained) {
+TEST_F(Results, ATableWithoutRowsNeedsNoParts) {
   Table runs = run();
   std::filesystem::remove_all(folder() / "parts");
   runs.rows.clear();
   writeTable(folder() / "runs.csv", runs);
-  told_.str({});
   EXPECT_EQ(run().rows.size(), 9u);
-  EXPECT_EQ(told_.str().find("without its parts"), std::string::npos);
-}
-
-// A process that is killed while it takes in a table has copied the environments, but not the runs.
-TEST_F(Results, ATableThatIsTakenInByHalfIsNotLost) {
-  const Table runs = run();
-  for (const auto& part : partsOf(folder())) std::filesystem::remove(part);
-  ASSERT_FALSE(partsOf(folder(), "environments").empty());
-  const std::string other = R"(
-[[block]]
-scene = "kepler"
-t_end = 0.5
-methods = ["gauss_2"]
-tolerances = [1e-6]
-)";
-  run("results", {}, other);
-  EXPECT_EQ(run().rows, runs.rows);
-  EXPECT_EQ(made(), 0);
 }
 
 }  // namespace

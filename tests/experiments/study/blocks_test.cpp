@@ -108,30 +108,6 @@ TEST_F(BlockColumn, IsNoPartOfARun) {
   for (const auto& part : partsOf(folder())) EXPECT_FALSE(readTable(part).hasColumn(kBlockColumn));
 }
 
-// A runs.csv without its parts, copied from elsewhere: its rows count, its blocks are computed again.
-TEST_F(BlockColumn, OfACopiedTableIsLeftOut) {
-  const Table runs = run("results", {}, kTwo);
-  const auto copied = folder("copied");
-  std::filesystem::create_directories(copied);
-  for (const char* table : {"runs.csv", "environments.csv"})
-    std::filesystem::copy_file(folder() / table, copied / table);
-  {
-    const Store store(copied, "small", Use::kRead, {}, told_);
-    EXPECT_EQ(store.runs().size(), 4u);
-  }
-  std::string renamed(kTwo);
-  renamed.replace(renamed.find("few"), 3, "first");
-  const Table again = run("copied", {}, renamed);
-  EXPECT_EQ(made(), 0);
-  EXPECT_EQ(again.columns, runs.columns);
-  ASSERT_EQ(again.rows.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
-    TableRow expected = runs.rows[i];
-    if (expected.back() == "few more") expected.back() = "first more";
-    EXPECT_EQ(again.rows[i], expected);
-  }
-}
-
 TEST(Blocks, OrdersNameThem) {
   const auto [study, runs] = runsOf(R"(
 orders = true
