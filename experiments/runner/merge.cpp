@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "experiments/runs/run_table.h"
-#include "experiments/store/entry_index.h"
 #include "experiments/store/facts.h"
 #include "experiments/study/series_walk.h"
 
@@ -88,15 +88,12 @@ class Comparing {
 };
 
 void countNotOfStudy(const RunKeys& keys, const std::vector<const Store*>& stores, MergeReport& report) {
-  // Counts the different keys in all stores, and subtracts those of the study.
-  EntryIndex all([](const Entry&, const Entry&) { return false; });
+  std::unordered_set<std::uint64_t> others;
   for (const auto* store : stores) {
-    store->runs().forEach([&](const Entry& entry) { all.add(entry); });
+    store->runs().forEach([&](const Entry& entry) { others.insert(entry.key); });
   }
-  all.sort();
-  std::size_t of_study = 0;
-  keys.forEach([&](std::uint64_t key, const std::string&) { of_study += all.find(key) ? 1u : 0u; });
-  report.not_of_study = all.size() - of_study;
+  keys.forEach([&](std::uint64_t key, const std::string&) { others.erase(key); });
+  report.not_of_study = others.size();
 }
 
 }  // namespace

@@ -151,13 +151,9 @@ void Store::exportStates(const RunKeys& keys) const {
 }
 
 void Store::exportAll(const Rows& rows, const std::string& name) const {
-  std::vector<Entry> all;
-  rows.forEach([&all](const Entry& entry) { all.push_back(entry); });
-  std::sort(all.begin(), all.end(),
-            [](const Entry& a, const Entry& b) { return std::pair(a.part, a.offset) < std::pair(b.part, b.offset); });
   writeWhole(folder_ / (name + ".csv"), [&](std::ostream& out) {
     out << startOf({{"study", study_}}, rows.columns());
-    for (const auto& entry : all) out << rows.csv(entry) << '\n';
+    rows.forEach([&](const Entry& entry) { out << rows.csv(entry) << '\n'; });
   });
 }
 

@@ -100,8 +100,7 @@ Rows::Rows(const std::filesystem::path& folder, std::string name, std::vector<st
       columns_(std::move(columns)),
       at_(std::make_unique<Columns>(columns_)),
       names_(1),
-      current_(idOf(at_->code < columns_.size() ? code : "")),
-      index_([this](const Entry& a, const Entry& b) { return better(a, b); }) {}
+      current_(idOf(at_->code < columns_.size() ? code : "")) {}
 
 Rows::~Rows() {
   for (const int file : descriptors_) {
@@ -123,6 +122,25 @@ std::uint16_t Rows::idOf(std::string_view name) {
 bool Rows::better(const Entry& a, const Entry& b) const {
   const auto rank = [this](const Entry& e) { return std::tuple(merit(e), e.part, e.offset); };
   return rank(a) > rank(b);
+}
+
+void Rows::put(const Entry& entry) {
+  const auto [at, added] = index_.try_emplace(entry.key, entry);
+  if (!added && better(entry, at->second)) at->second = entry;
+}
+
+std::optional<Entry> Rows::find(std::uint64_t key) const {
+  const auto at = index_.find(key);
+  return at == index_.end() ? std::nullopt : std::optional(at->second);
+}
+
+void Rows::forEach(const std::function<void(const Entry&)>& take) const {
+  std::vector<const Entry*> entries;
+  for (const auto& [key, entry] : index_) entries.push_back(&entry);
+  std::sort(entries.begin(), entries.end(), [](const Entry* a, const Entry* b) {
+    return std::pair(a->part, a->offset) < std::pair(b->part, b->offset);
+  });
+  for (const Entry* entry : entries) take(*entry);
 }
 
 std::optional<Entry> Rows::entryOf(const std::vector<std::string_view>& cells) {
@@ -147,7 +165,7 @@ void Rows::readOne(const std::filesystem::path& file, std::uint32_t part, Damage
     if (!entry) return fmt::format("'{}' is no key of 16 hexadecimal digits", cells.front());
     entry->part = part;
     entry->offset = offset;
-    index_.add(*entry);
+    put(*entry);
     return {};
   });
   using Names = PartReading::Names;
@@ -180,7 +198,6 @@ void Rows::read(Damage damage, std::ostream& messages) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     readOne(parts_[i], static_cast<std::uint32_t>(i), damage, messages);
   }
-  index_.sort();
 }
 
 void Rows::append(const TableRow& row) {
@@ -194,7 +211,7 @@ void Rows::append(const TableRow& row) {
   entry->offset = writer_->append(row);
   if (parts_.empty() || parts_.back() != writer_->file()) parts_.push_back(writer_->file());
   entry->part = static_cast<std::uint32_t>(parts_.size() - 1);
-  index_.put(*entry);
+  put(*entry);
 }
 
 int Rows::descriptor(std::uint32_t part) const {

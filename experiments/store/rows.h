@@ -12,9 +12,10 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
-#include "experiments/store/entry_index.h"
+#include "experiments/store/entry.h"
 #include "experiments/store/part.h"
 #include "experiments/tables/table.h"
 
@@ -34,8 +35,7 @@ std::uint32_t secondsOf(std::string_view date);
 ///   4. written later: in the part that was begun later (partsInOrder), or further down in it.
 /// No date decides, because a clock can be set back: the number of a new part is one above all that its writer has
 /// read. Writers that did not see each other's parts may have equal numbers; then the names of the parts decide.
-/// Reading takes one pass over the parts and keeps one Entry per key, with bounded memory (EntryIndex). Not
-/// thread-safe.
+/// Reading takes one pass over the parts and keeps one Entry per key: about 72 bytes of memory. Not thread-safe.
 class Rows {
  public:
   /// `code` is the fingerprint of this program.
@@ -52,7 +52,7 @@ class Rows {
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t size() const { return index_.size(); }
   /// The valid row of this key, if there is one.
-  std::optional<Entry> find(std::uint64_t key) const { return index_.find(key); }
+  std::optional<Entry> find(std::uint64_t key) const;
   bool isCurrent(const Entry& entry) const { return entry.code == current_; }
   /// Criteria 1 to 3. Those of several Rows can be compared; the order of criterion 4 is known within one only.
   std::tuple<bool, std::uint32_t, bool> merit(const Entry& entry) const {
@@ -66,14 +66,15 @@ class Rows {
   /// The row is in the file when this returns; the destructor flushes it to the device. Throws Failure.
   void append(const TableRow& row);
 
-  /// Visits every entry, by ascending keys.
-  void forEach(const std::function<void(const Entry&)>& take) const { index_.forEach(take); }
+  /// Visits every entry, in the order of the parts and of the rows in them.
+  void forEach(const std::function<void(const Entry&)>& take) const;
   /// The number of lines that could not be read.
   std::size_t damaged() const { return damaged_; }
 
  private:
   struct Columns;
   bool better(const Entry& a, const Entry& b) const;
+  void put(const Entry& entry);
   std::optional<Entry> entryOf(const std::vector<std::string_view>& cells);
   std::uint16_t idOf(std::string_view name);
   void readOne(const std::filesystem::path& file, std::uint32_t part, Damage damage, std::ostream& messages);
@@ -106,8 +107,8 @@ class Rows {
   std::vector<std::filesystem::path> parts_;
   std::vector<std::string> names_;
   std::uint16_t current_;
-  EntryIndex index_;
-  std::optional<PartWriter> writer_;  // since the first row was appended
+  std::unordered_map<std::uint64_t, Entry> index_;  // the valid rows by their keys
+  std::optional<PartWriter> writer_;                // since the first row was appended
   std::size_t damaged_ = 0;
   mutable std::vector<int> descriptors_;  // one for each of parts_; -1 = closed
   mutable std::size_t open_ = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "experiments/runs/block_names.h"
-#include "experiments/store/entry_index.h"
 
 namespace irk::store {
 
@@ -15,11 +14,7 @@ RunKeys::RunKeys(const std::vector<Series>& series) : first_{0} {
     block_.push_back(static_cast<std::uint32_t>(blocks_.size() - 1));
   }
   if (blocks_.empty()) blocks_.emplace_back();
-  if (first_.back() <= kHeld) {
-    held_.resize(first_.back());
-  } else {
-    file_ = std::make_unique<SpillFile>();
-  }
+  keys_.resize(first_.back());
 }
 
 RunKeys::RunKeys(std::span<const std::uint64_t> keys) : RunKeys(std::vector<Series>{{keys.size(), {}}}) {
@@ -28,64 +23,44 @@ RunKeys::RunKeys(std::span<const std::uint64_t> keys) : RunKeys(std::vector<Seri
 }
 
 void RunKeys::set(std::size_t series, std::span<const std::uint64_t> keys) {
-  if (file_) {
-    file_->write(keys.data(), keys.size_bytes(), first_[series] * sizeof(std::uint64_t));
-  } else {
-    std::copy(keys.begin(), keys.end(), held_.begin() + static_cast<std::ptrdiff_t>(first_[series]));
-  }
-}
-
-std::vector<std::uint64_t> RunKeys::keysBetween(std::size_t begin, std::size_t end) const {
-  std::vector<std::uint64_t> keys(end - begin);
-  if (file_) {
-    file_->read(keys.data(), keys.size() * sizeof(std::uint64_t), begin * sizeof(std::uint64_t));
-  } else {
-    std::copy_n(held_.begin() + static_cast<std::ptrdiff_t>(begin), keys.size(), keys.begin());
-  }
-  return keys;
+  std::copy(keys.begin(), keys.end(), keys_.begin() + static_cast<std::ptrdiff_t>(first_[series]));
 }
 
 std::vector<std::uint64_t> RunKeys::operator[](std::size_t series) const {
-  return keysBetween(first_[series], first_[series + 1]);
+  return {keys_.data() + first_[series], keys_.data() + first_[series + 1]};
 }
 
 template <class Take>
 void RunKeys::forAll(Take&& take) const {
-  std::size_t series = 0;
-  for (std::size_t begin = 0; begin < first_.back(); begin += kHeld) {
-    std::size_t run = begin;
-    for (const auto key : keysBetween(begin, std::min(begin + kHeld, first_.back()))) {
-      while (first_[series + 1] <= run) ++series;
-      take(key, run++, blocks_[block_[series]]);
+  for (std::size_t series = 0; series < size(); ++series) {
+    for (std::size_t run = first_[series]; run < first_[series + 1]; ++run) {
+      take(keys_[run], run, blocks_[block_[series]]);
     }
   }
 }
 
 void RunKeys::finish() {
-  EntryIndex first([](const Entry& a, const Entry& b) { return a.offset < b.offset; });
-  forAll([&first](std::uint64_t key, std::size_t run, const std::string&) { first.add({.key = key, .offset = run}); });
-  first.sort();
-  repeated_ = first_.back() - first.size();
-  if (repeated_ == 0) return;
-  is_repeat_.resize(first_.back());
-  forAll([&](std::uint64_t key, std::size_t run, const std::string&) {
-    if (first.find(key)->offset == run) return;
-    is_repeat_[run] = true;
-    blocks_of_repeated_.try_emplace(key);
-  });
-  forAll([this](std::uint64_t key, std::size_t, const std::string& block) {
-    const auto at = blocks_of_repeated_.find(key);
-    if (at != blocks_of_repeated_.end()) addBlocks(at->second, block);
+  std::vector<std::uint64_t> sorted = keys_;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] == sorted[i - 1]) repeated_.try_emplace(sorted[i], Repeated{keys_.size(), {}});
+  }
+  runs_ = static_cast<std::size_t>(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+  forAll([this](std::uint64_t key, std::size_t run, const std::string& block) {
+    const auto at = repeated_.find(key);
+    if (at == repeated_.end()) return;
+    at->second.first = std::min(at->second.first, run);
+    addBlocks(at->second.blocks, block);
   });
 }
 
 void RunKeys::forEach(const std::function<void(std::uint64_t, const std::string&)>& take) const {
   forAll([&](std::uint64_t key, std::size_t run, const std::string& block) {
-    if (repeated_ == 0) {
+    const auto at = repeated_.find(key);
+    if (at == repeated_.end()) {
       take(key, block);
-    } else if (!is_repeat_[run]) {
-      const auto at = blocks_of_repeated_.find(key);
-      take(key, at == blocks_of_repeated_.end() ? block : at->second);
+    } else if (at->second.first == run) {
+      take(key, at->second.blocks);
     }
   });
 }
