@@ -14,7 +14,6 @@
 #include "experiments/audit/row_judgement.h"
 #include "experiments/base/numbers.h"
 #include "experiments/report/explorer/run_command.h"
-#include "experiments/report/explorer/spilled_text.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/study.h"
@@ -62,7 +61,7 @@ Json rounded(double x) {
   return cellNumber(fmt::format("{:.4g}", x));
 }
 
-/// A JSON array that may be larger than the memory.
+/// A JSON array.
 class Array {
  public:
   std::size_t size() const { return size_; }
@@ -73,14 +72,10 @@ class Array {
   void fillUpTo(std::size_t size) {
     while (size_ < size) append(nullptr);
   }
-  void write(std::ostream& out) const {
-    out << '[';
-    text_.write(out);
-    out << ']';
-  }
+  void write(std::ostream& out) const { out << '[' << text_ << ']'; }
 
  private:
-  SpilledText text_;
+  std::string text_;
   std::size_t size_ = 0;
 };
 

@@ -8,7 +8,6 @@
 #include "experiments/report/explorer/explorer.h"
 #include "experiments/report/explorer/explorer_data.h"
 #include "experiments/report/explorer/run_command.h"
-#include "experiments/report/explorer/spilled_text.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
@@ -31,23 +30,6 @@ std::vector<std::string> wordsOf(const std::string& command) {
   std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
   words.erase(words.begin());  // irk
   return words;
-}
-
-TEST(Explorer, TextsMayBeLargerThanTheMemory) {
-  std::string whole;
-  SpilledText text;
-  for (int i = 0; whole.size() < 3 * SpilledText::kHeld; ++i) {
-    const auto piece = std::to_string(i * i) + std::string(static_cast<std::size_t>(i % 7), '\n');
-    whole += piece;
-    text.append(piece);
-    if (i % 5000 != 0) continue;
-    std::ostringstream so_far;
-    text.write(so_far);
-    EXPECT_EQ(so_far.str(), whole);
-  }
-  std::ostringstream out;
-  text.write(out);
-  EXPECT_EQ(out.str(), whole);
 }
 
 // Peers, configurations, settings that are words, fixed steps, options of strategies, an end of its own.
