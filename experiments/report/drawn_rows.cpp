@@ -20,7 +20,7 @@
 #include "experiments/base/failure.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
-#include "experiments/store/part.h"
+#include "experiments/tables/table.h"
 
 namespace irk {
 namespace {
@@ -86,7 +86,7 @@ class Selection {
  private:
   std::optional<std::string> cell(const CellViews& cells, std::string_view column) const {
     const auto at = at_.find(column);
-    return at == at_.end() ? std::nullopt : std::optional(store::plainCell(cells[at->second]));
+    return at == at_.end() ? std::nullopt : std::optional(plainCell(cells[at->second]));
   }
   // Rows without the column are left to gnuplot.
   bool is(const CellViews& cells, std::string_view column, std::string_view value) const {
@@ -258,15 +258,15 @@ DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, co
   std::string line;
   while (std::getline(in, line) && line.starts_with('#')) out << line << '\n';
   CellViews cells;
-  if (!store::splitLine(line, cells)) throw Failure(fmt::format("{}: no line with column names", results.string()));
-  const TableRow header = store::plainRow(cells);
+  if (!splitLine(line, cells)) throw Failure(fmt::format("{}: no line with column names", results.string()));
+  const TableRow header = plainRow(cells);
   Columns at;
   for (std::size_t i = 0; i < header.size(); ++i) at[header[i]] = i;
   const Selection selection(options, script + style, at);
   Thinned rows = thinnedFor(script, style, options, header, at);
   rows.add(cells);
   while (std::getline(in, line)) {
-    if (store::splitLine(line, cells) && cells.size() == header.size() && selection.takes(cells)) rows.add(cells);
+    if (splitLine(line, cells) && cells.size() == header.size() && selection.takes(cells)) rows.add(cells);
   }
   rows.write(out);
   rows_ = rows.size() - 1;

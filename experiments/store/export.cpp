@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -16,22 +15,10 @@
 #include "experiments/store/store.h"
 #include "experiments/tables/build_info.h"
 #include "experiments/tables/environment.h"
-#include "experiments/tables/new_file.h"
+#include "experiments/tables/table_rows.h"
 
 namespace irk::store {
 namespace {
-
-void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
-  NewFile whole(file);
-  write(whole.out());
-  whole.close();
-}
-
-std::string startOf(const TableHead& head, const std::vector<std::string>& columns) {
-  std::string text;
-  for (const auto& [key, value] : head) text += fmt::format("# {}: {}\n", key, value);
-  return text + csvLine(columns) + '\n';
-}
 
 std::string joined(const std::set<std::string>& texts) { return fmt::format("{}", fmt::join(texts, " | ")); }
 
@@ -122,48 +109,46 @@ TableHead Store::head(const Origins& origins, const std::string& refusal) const 
 
 void Store::exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const {
   const Table names{{}, runs_.columns(), {}};
-  writeWhole(folder_ / "runs.csv", [&](std::ostream& out) {
-    auto columns = runs_.columns();
-    if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
-    out << startOf(head, columns);
-    forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
-      const bool times_count = !times_refused && (options_.times == Times::kAll || timedHere(entry));
-      if (times_count) {
-        out << runs_.csv(entry);
-      } else {
-        TableRow row = runs_.row(entry);
-        forgetTiming(names, row);
-        out << csvLine(row);
-      }
-      if (keys.hasBlocks()) out << ',' << csvLine({blocks});
-      out << '\n';
-    });
+  auto columns = runs_.columns();
+  if (keys.hasBlocks()) columns.emplace_back(kBlockColumn);
+  TableWriter table(folder_ / "runs.csv", head, columns);
+  forEachRun(keys, [&](const Entry& entry, const std::string& blocks) {
+    const bool times_count = !times_refused && (options_.times == Times::kAll || timedHere(entry));
+    std::string line;
+    if (times_count) {
+      line = runs_.csv(entry);
+    } else {
+      TableRow row = runs_.row(entry);
+      forgetTiming(names, row);
+      line = csvLine(row);
+    }
+    if (keys.hasBlocks()) line += ',' + csvLine({blocks});
+    table.addLine(line);
   });
+  table.close();
 }
 
 void Store::exportStates(const RunKeys& keys) const {
-  writeWhole(folder_ / "states.csv", [&](std::ostream& out) {
-    out << startOf({{"study", study_}}, states_.columns());
-    keys.forEach([&](std::uint64_t key, const std::string&) {
-      if (const auto entry = states_.find(key)) out << states_.csv(*entry) << '\n';
-    });
+  TableWriter table(folder_ / "states.csv", {{"study", study_}}, states_.columns());
+  keys.forEach([&](std::uint64_t key, const std::string&) {
+    if (const auto entry = states_.find(key)) table.addLine(states_.csv(*entry));
   });
+  table.close();
 }
 
-void Store::exportAll(const Rows& rows, const std::string& name) const {
-  writeWhole(folder_ / (name + ".csv"), [&](std::ostream& out) {
-    out << startOf({{"study", study_}}, rows.columns());
-    rows.forEach([&](const Entry& entry) { out << rows.csv(entry) << '\n'; });
-  });
+void Store::exportAll(const Rows& rows) const {
+  TableWriter table(folder_ / (rows.kind() + ".csv"), {{"study", study_}}, rows.columns());
+  rows.forEach([&](const Entry& entry) { table.addLine(rows.csv(entry)); });
+  table.close();
 }
 
 std::string Store::exportTables(const RunKeys& keys) const {
   const Origins origins = originsOf(keys);
   std::string refusal = origins.refusalOfTimes();
   exportRuns(keys, head(origins, refusal), !refusal.empty());
-  exportAll(environments_, "environments");
-  if (calibrations_.size() > 0) exportAll(calibrations_, "calibrations");
-  if (timing_cores_.size() > 0) exportAll(timing_cores_, "timing_cores");
+  exportAll(environments_);
+  if (calibrations_.size() > 0) exportAll(calibrations_);
+  if (timing_cores_.size() > 0) exportAll(timing_cores_);
   if (states_.size() > 0) exportStates(keys);
   return refusal;
 }

@@ -18,20 +18,6 @@
 namespace irk::store {
 namespace {
 
-// The end of the cell that begins at `at`; npos if the cell is damaged.
-std::size_t cellEnd(std::string_view line, std::size_t at) {
-  if (at == line.size() || line[at] != '"') {
-    while (at < line.size() && line[at] != ',' && line[at] != '"') ++at;
-    return at < line.size() && line[at] == '"' ? line.npos : at;
-  }
-  for (++at;; at += 2) {
-    at = line.find('"', at);
-    if (at == line.npos) return line.npos;
-    if (at + 1 == line.size() || line[at + 1] == ',') return at + 1;
-    if (line[at + 1] != '"') return line.npos;
-  }
-}
-
 std::string oneLine(const TableRow& row) {
   TableRow cells = row;
   for (auto& cell : cells) {
@@ -62,34 +48,6 @@ PartReading::Names namesOf(std::string_view line, const std::vector<std::string>
 }
 
 }  // namespace
-
-bool splitLine(std::string_view line, std::vector<std::string_view>& cells) {
-  cells.clear();
-  for (std::size_t at = 0;;) {
-    const auto end = cellEnd(line, at);
-    if (end == line.npos) return false;
-    cells.push_back(line.substr(at, end - at));
-    if (end == line.size()) return true;
-    at = end + 1;
-  }
-}
-
-std::string plainCell(std::string_view written) {
-  if (!written.starts_with('"')) return std::string(written);
-  std::string text;
-  for (std::size_t i = 1; i + 1 < written.size(); ++i) {
-    text += written[i];
-    if (written[i] == '"') ++i;  // a doubled quote is one character
-  }
-  return text;
-}
-
-TableRow plainRow(const std::vector<std::string_view>& cells) {
-  TableRow row;
-  row.reserve(cells.size());
-  for (const auto cell : cells) row.push_back(plainCell(cell));
-  return row;
-}
 
 PartReading readPart(const std::filesystem::path& file, const std::vector<std::string>& columns,
                      const TakeWritten& take) {

@@ -13,13 +13,6 @@
 
 namespace irk::store {
 
-/// Splits a CSV line into its written cells, quotes included. Returns false for an unbalanced quote or for text
-/// behind a closing one.
-bool splitLine(std::string_view line, std::vector<std::string_view>& cells);
-/// The value of a written cell, without its quotes.
-std::string plainCell(std::string_view written);
-TableRow plainRow(const std::vector<std::string_view>& cells);
-
 /// A line that is not read, and why: its checksum is wrong, its cells are not those of the columns, the last line has
 /// no line end, or `take` has refused its row.
 struct DamagedLine {

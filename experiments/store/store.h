@@ -96,7 +96,7 @@ class Store {
   TableHead head(const Origins& origins, const std::string& refusal) const;
   void exportRuns(const RunKeys& keys, const TableHead& head, bool times_refused) const;
   void exportStates(const RunKeys& keys) const;
-  void exportAll(const Rows& rows, const std::string& name) const;
+  void exportAll(const Rows& rows) const;
 
   std::filesystem::path folder_;
   std::string study_;

@@ -26,6 +26,7 @@ namespace {
 
 std::filesystem::path newBeside(const std::filesystem::path& file) {
   requireRegularFile(file);
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   for (int i = 1;; ++i) {
     const std::filesystem::path beside = fmt::format("{}.{}.{}.{}.new", file.string(), hostName(), getpid(), i);
     const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -46,8 +47,13 @@ NewFile::~NewFile() {
   std::filesystem::remove(beside_, none);
 }
 
+void NewFile::check() {
+  if (!out_) cannotWriteNew(beside_);
+}
+
 void NewFile::close() {
-  if (!out_.flush()) cannotWriteNew(beside_);
+  out_.flush();
+  check();
   out_.close();
   std::filesystem::rename(beside_, file_);
 }

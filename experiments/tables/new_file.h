@@ -7,8 +7,8 @@
 namespace irk {
 
 /// Makes an empty file FILE.<host>.<process>.<number>.new beside `file`, which no other process uses, and returns its
-/// name. A link of that name, which could lead anywhere, is not followed. Throws Failure if it cannot be made, and
-/// Misuse if `file` is a device or a folder, in whose place renaming would put the file.
+/// name; makes the folder, too. A link of that name, which could lead anywhere, is not followed. Throws Failure if it
+/// cannot be made, and Misuse if `file` is a device or a folder, in whose place renaming would put the file.
 std::filesystem::path newBeside(const std::filesystem::path& file);
 
 /// Until then it has a name beside it (newBeside). Throws as that.
@@ -21,6 +21,8 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   std::ostream& out() { return out_; }
+  /// Throws Failure if anything could not be written so far.
+  void check();
   /// Gives it its name. Throws Failure if anything could not be written.
   void close();
 

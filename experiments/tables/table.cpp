@@ -20,6 +20,20 @@ std::string quoted(const std::string& cell) {
   return text + '"';
 }
 
+// The end of the cell that begins at `at`; npos if the cell is damaged.
+std::size_t cellEnd(std::string_view line, std::size_t at) {
+  if (at == line.size() || line[at] != '"') {
+    while (at < line.size() && line[at] != ',' && line[at] != '"') ++at;
+    return at < line.size() && line[at] == '"' ? line.npos : at;
+  }
+  for (++at;; at += 2) {
+    at = line.find('"', at);
+    if (at == line.npos) return line.npos;
+    if (at + 1 == line.size() || line[at + 1] == ',') return at + 1;
+    if (line[at + 1] != '"') return line.npos;
+  }
+}
+
 [[noreturn]] void cannotWrite(const std::filesystem::path& path) {
   throw Failure(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
 }
@@ -43,6 +57,34 @@ std::string csvLine(const TableRow& row) {
     line += quoted(cell);
   }
   return line;
+}
+
+bool splitLine(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (std::size_t at = 0;;) {
+    const auto end = cellEnd(line, at);
+    if (end == line.npos) return false;
+    cells.push_back(line.substr(at, end - at));
+    if (end == line.size()) return true;
+    at = end + 1;
+  }
+}
+
+std::string plainCell(std::string_view written) {
+  if (!written.starts_with('"')) return std::string(written);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < written.size(); ++i) {
+    text += written[i];
+    if (written[i] == '"') ++i;  // a doubled quote is one character
+  }
+  return text;
+}
+
+TableRow plainRow(const std::vector<std::string_view>& cells) {
+  TableRow row;
+  row.reserve(cells.size());
+  for (const auto cell : cells) row.push_back(plainCell(cell));
+  return row;
 }
 
 RowWriter::RowWriter(const std::filesystem::path& path, const Table& table) {

@@ -27,6 +27,13 @@ struct Table {
 /// One CSV line without its line end. RFC 4180: cells with commas, quotes or line ends are quoted.
 std::string csvLine(const TableRow& row);
 
+/// Splits what csvLine gives into its written cells, quotes included. Returns false for an unbalanced quote, for one
+/// inside of a cell without quotes, and for text behind a closing one.
+bool splitLine(std::string_view line, std::vector<std::string_view>& cells);
+/// The value of a written cell, without its quotes.
+std::string plainCell(std::string_view written);
+TableRow plainRow(const std::vector<std::string_view>& cells);
+
 /// Drops a last row that is cut short (no line end, or too few cells), as an interrupted program may leave one.
 /// Throws Misuse with file and line for other damage, and if the file cannot be read.
 Table readTable(const std::filesystem::path& path);

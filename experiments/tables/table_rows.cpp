@@ -3,99 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <ios>
-#include <optional>
-#include <streambuf>
 #include <system_error>
 #include <utility>
 
 #include "core/base/input_file.h"
-#include "experiments/base/failure.h"
-#include "experiments/tables/new_file.h"
 #include "irk/misuse.h"
 
 namespace irk {
-
-/// Reads the cells of one row after another; quoted cells may span lines.
-class TableFile::Reader {
- public:
-  explicit Reader(std::streambuf& in) : in_(in) {}
-  bool atEnd() { return in_.sgetc() == kEnd; }
-  int line() const { return line_; }
-  std::uint64_t position() const { return position_; }
-
-  void seek(std::uint64_t position) {
-    if (position == position_) return;
-    in_.pubseekpos(static_cast<std::streamoff>(position), std::ios::in);
-    position_ = position;
-  }
-
-  bool isComment() { return in_.sgetc() == '#'; }
-
-  /// The rest of the line; nullopt if the line has no end.
-  std::optional<std::string> rest() {
-    std::string text;
-    while (!atEnd()) {
-      const char c = next();
-      if (c == '\n') {
-        ++line_;
-        return text;
-      }
-      text += c;
-    }
-    return {};
-  }
-
-  /// The next row; nullopt if it has no end. Most rows have `usual` cells.
-  std::optional<TableRow> row(std::size_t usual) {
-    TableRow cells;
-    cells.reserve(usual);
-    cells.emplace_back();
-    while (!atEnd()) {
-      const char c = next();
-      if (c == '"') {
-        if (!quotedPart(cells.back())) return {};
-      } else if (c == ',') {
-        cells.emplace_back();
-      } else if (c == '\n') {
-        ++line_;
-        return cells;
-      } else if (c != '\r') {
-        cells.back() += c;
-      }
-    }
-    return {};
-  }
-
- private:
-  static constexpr int kEnd = std::streambuf::traits_type::eof();
-
-  char next() {
-    ++position_;
-    return static_cast<char>(in_.sbumpc());
-  }
-
-  // Reads behind an opening quote up to the closing one; a doubled quote stands for one character.
-  bool quotedPart(std::string& cell) {
-    while (!atEnd()) {
-      const char c = next();
-      const bool doubled = c == '"' && in_.sgetc() == '"';
-      if (c == '"' && !doubled) return true;
-      if (doubled) next();
-      if (c == '\n') ++line_;
-      cell += c;
-    }
-    return false;
-  }
-
-  std::streambuf& in_;
-  std::uint64_t position_ = 0;
-  int line_ = 1;
-};
-
 namespace {
 
 void readHeadLine(std::string_view line, Table& table) {
@@ -119,36 +36,55 @@ std::ifstream opened(const std::filesystem::path& path) {
 
 }  // namespace
 
-TableFile::TableFile(std::filesystem::path file)
-    : path_(std::move(file)), in_(opened(path_)), reader_(std::make_unique<Reader>(*in_.rdbuf())) {
-  try {
-    while (!reader_->atEnd() && reader_->isComment()) {
-      if (const auto line = reader_->rest()) readHeadLine(*line, names_);
-    }
-    const auto columns = reader_->atEnd() ? std::nullopt : reader_->row(1);
-    if (!columns) throw Misuse(fmt::format("{}: no line with column names", path_.string()));
-    names_.columns = *columns;
-  } catch (const std::ios_base::failure& failure) {
-    throw Misuse(fmt::format("file '{}' cannot be read: {}", path_.string(), failure.what()));
+TableFile::TableFile(std::filesystem::path file) : path_(std::move(file)), in_(opened(path_)) {
+  while (in_.peek() == '#') {
+    if (nextLine()) readHeadLine(line_, names_);
   }
+  if (!nextRow() || cells_.empty()) throw Misuse(fmt::format("{}: no line with column names", path_.string()));
+  names_.columns = plainRow(cells_);
 }
 
-TableFile::~TableFile() = default;
-
-std::optional<TableRow> TableFile::next() try {
-  if (reader_->atEnd()) return {};
-  const int line = reader_->line();
-  auto row = reader_->row(names_.columns.size());
-  if (row && row->size() == names_.columns.size()) return row;
-  if (reader_->atEnd()) return {};
-  throw Misuse(fmt::format("{}:{}: {} cells, the columns are {}", path_.string(), line, row ? row->size() : 0,
-                           names_.columns.size()));
-} catch (const std::ios_base::failure& failure) {
-  throw Misuse(fmt::format("file '{}' cannot be read: {}", path_.string(), failure.what()));
+// False behind the last line, and for a line without a line end.
+bool TableFile::nextLine() {
+  std::getline(in_, line_);
+  if (in_.bad()) throw Misuse(fmt::format("file '{}' cannot be read: {}", path_.string(), std::strerror(errno)));
+  position_ += line_.size() + (in_.eof() ? 0 : 1);
+  ++lines_;
+  return in_.good();
 }
 
-std::uint64_t TableFile::position() const { return reader_->position(); }
-void TableFile::seek(std::uint64_t position) { reader_->seek(position); }
+// Reads into `text_` and `cells_`; quoted cells may span lines, and damaged ones leave no cells. False behind the last
+// row, and for a row that is cut short.
+bool TableFile::nextRow() {
+  const auto first = lines_ + 1;
+  bool quoted = false;
+  for (text_.clear(); nextLine(); text_ += '\n') {
+    text_ += line_;
+    if (std::count(line_.begin(), line_.end(), '"') % 2 != 0) quoted = !quoted;
+    if (quoted) continue;
+    if (text_.ends_with('\r')) text_.pop_back();
+    if (!splitLine(text_, cells_)) cells_.clear();
+    return true;
+  }
+  if (quoted && line_.empty()) throw Misuse(fmt::format("{}:{}: a quote has no end", path_.string(), first));
+  return false;
+}
+
+std::optional<TableRow> TableFile::next() {
+  const auto line = lines_ + 1;
+  const bool ends = nextRow();
+  if (ends && cells_.size() == names_.columns.size()) return plainRow(cells_);
+  if (!ends || in_.peek() == std::ifstream::traits_type::eof()) return {};
+  const std::string why = cells_.empty() ? "a quote is unbalanced" : fmt::format("{} cells", cells_.size());
+  throw Misuse(fmt::format("{}:{}: {}, the columns are {}", path_.string(), line, why, names_.columns.size()));
+}
+
+void TableFile::seek(std::uint64_t position) {
+  if (position == position_ && in_.good()) return;
+  in_.clear();
+  in_.seekg(static_cast<std::streamoff>(position));
+  position_ = position;
+}
 
 Table forEachRow(const std::filesystem::path& path, const std::function<void(const Table& names, TableRow row)>& take) {
   TableFile file(path);
@@ -163,32 +99,16 @@ Table readTable(const std::filesystem::path& path) {
   return table;
 }
 
-TableWriter::TableWriter(std::filesystem::path file, const TableHead& head, const std::vector<std::string>& columns)
-    : file_(std::move(file)) {
-  if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
-  beside_ = newBeside(file_);
-  out_.open(beside_, std::ios::binary);
-  for (const auto& [key, value] : head) out_ << "# " << key << ": " << value << '\n';
+TableWriter::TableWriter(const std::filesystem::path& file, const TableHead& head,
+                         const std::vector<std::string>& columns)
+    : file_(file) {
+  for (const auto& [key, value] : head) addLine(fmt::format("# {}: {}", key, value));
   add(columns);
 }
 
-TableWriter::~TableWriter() {
-  if (!out_.is_open()) return;
-  out_.close();
-  std::error_code none;
-  std::filesystem::remove(beside_, none);
-}
-
-void TableWriter::add(const TableRow& row) {
-  if (!(out_ << csvLine(row) << '\n')) {
-    throw Failure(fmt::format("cannot write {}: {}", beside_.string(), std::strerror(errno)));
-  }
-}
-
-void TableWriter::close() {
-  if (!out_.flush()) throw Failure(fmt::format("cannot write {}: {}", beside_.string(), std::strerror(errno)));
-  out_.close();
-  std::filesystem::rename(beside_, file_);
+void TableWriter::addLine(std::string_view line) {
+  file_.out() << line << '\n';
+  file_.check();
 }
 
 void writeTable(const std::filesystem::path& path, const Table& table) {

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "experiments/tables/new_file.h"
 #include "experiments/tables/table.h"
 
 namespace irk {
@@ -19,21 +21,25 @@ class TableFile {
  public:
   /// Reads the head and the columns.
   explicit TableFile(std::filesystem::path file);
-  ~TableFile();
 
   /// Head and columns, no rows.
   const Table& names() const { return names_; }
   /// The next row; nullopt behind the last one.
   std::optional<TableRow> next();
   /// Where the next row begins, in bytes; `seek` returns there.
-  std::uint64_t position() const;
+  std::uint64_t position() const { return position_; }
   void seek(std::uint64_t position);
 
  private:
-  class Reader;
+  bool nextLine();
+  bool nextRow();
+
   std::filesystem::path path_;
   std::ifstream in_;
-  std::unique_ptr<Reader> reader_;
+  std::uint64_t position_ = 0;
+  std::size_t lines_ = 0;                // that were read
+  std::string line_, text_;              // the last line, the last row
+  std::vector<std::string_view> cells_;  // of `text_`
   Table names_;
 };
 
@@ -44,20 +50,16 @@ Table forEachRow(const std::filesystem::path& path, const std::function<void(con
 /// A table in a file whose rows are written one after another. Throws Failure.
 class TableWriter {
  public:
-  /// Writes beside `file`.
-  TableWriter(std::filesystem::path file, const TableHead& head, const std::vector<std::string>& columns);
-  /// Removes the file unless `close` was called.
-  ~TableWriter();
-  TableWriter(const TableWriter&) = delete;
-  TableWriter& operator=(const TableWriter&) = delete;
+  TableWriter(const std::filesystem::path& file, const TableHead& head, const std::vector<std::string>& columns);
 
-  void add(const TableRow& row);
-  /// Renames the file, so that readers never see a partial table.
-  void close();
+  void add(const TableRow& row) { addLine(csvLine(row)); }
+  /// Adds a row as csvLine gives it.
+  void addLine(std::string_view line);
+  /// Without it, nothing is written (NewFile).
+  void close() { file_.close(); }
 
  private:
-  std::filesystem::path file_, beside_;
-  std::ofstream out_;
+  NewFile file_;
 };
 
 }  // namespace irk

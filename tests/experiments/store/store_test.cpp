@@ -17,17 +17,6 @@ class Results : public StoredRuns {};
 
 // --- One row per line.
 
-TEST(Part, SplitsWhatIsWritten) {
-  const TableRow row{"a", "b,c", "say \"x\"", "", "\"", ","};
-  std::vector<std::string_view> cells;
-  const std::string line = csvLine(row);
-  ASSERT_TRUE(store::splitLine(line, cells));
-  EXPECT_EQ(store::plainRow(cells), row);
-  for (const char* damaged : {"a,\"b,c", "a,b\"c", "\"a\"b,c", "\"", "a,\"\"\""}) {
-    EXPECT_FALSE(store::splitLine(damaged, cells)) << damaged;
-  }
-}
-
 TEST(Part, SecondsOfADate) {
   EXPECT_EQ(store::secondsOf("1970-01-02T00:00:01Z"), 86401u);
   EXPECT_EQ(store::secondsOf("2024-02-29T12:34:56Z"), 1709210096u);  // date -ud 2024-02-29T12:34:56 +%s

@@ -54,7 +54,7 @@ TEST_F(MutatedTables, PartsGiveWholeRowsOnly) {
   for (int i = 0; i < 20'000; ++i) {
     const auto file = written(mutations.next());
     const auto reading = store::readPart(file, columns, [&](const auto& cells, std::uint64_t) {
-      EXPECT_EQ(std::count(written_rows.begin(), written_rows.end(), store::plainRow(cells)), 1);
+      EXPECT_EQ(std::count(written_rows.begin(), written_rows.end(), plainRow(cells)), 1);
       ++rows;
       return std::string();
     });

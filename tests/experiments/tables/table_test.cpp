@@ -34,6 +34,17 @@ TEST(Table, ReadsBackWhatWasWritten) {
 
 TEST(Table, QuotesAsRfc4180Says) { EXPECT_EQ(csvLine({"a", "b,c", "say \"x\"", ""}), "a,\"b,c\",\"say \"\"x\"\"\","); }
 
+TEST(Table, SplitsTheLineThatIsWritten) {
+  const TableRow row{"a", "b,c", "say \"x\"", "", "\"", ","};
+  std::vector<std::string_view> cells;
+  const std::string line = csvLine(row);
+  ASSERT_TRUE(splitLine(line, cells));
+  EXPECT_EQ(plainRow(cells), row);
+  for (const char* damaged : {"a,\"b,c", "a,b\"c", "\"a\"b,c", "\"", "a,\"\"\""}) {
+    EXPECT_FALSE(splitLine(damaged, cells)) << damaged;
+  }
+}
+
 TEST(Table, IsWrittenRowByRow) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "deep" / "runs.csv", whole = folder.path() / "whole.csv";
@@ -126,6 +137,10 @@ TEST(Table, RefusesDamageInTheMiddle) {
   const auto path = folder.path() / "runs.csv";
   std::ofstream(path) << "# study: x\na,b\n1,2\n3\n4,5\n";
   EXPECT_TRUE(containsAll(misuseOf([&] { readTable(path); }), {"runs.csv:4", "1 cells", "2"}));
+  std::ofstream(path) << "a,b\n1,2\n3,x\"y\"\n4,5\n";
+  EXPECT_TRUE(containsAll(misuseOf([&] { readTable(path); }), {"runs.csv:3", "quote", "unbalanced"}));
+  std::ofstream(path) << "a,b\n1,\"2\n3,4\n5,6\n";
+  EXPECT_TRUE(containsAll(misuseOf([&] { readTable(path); }), {"runs.csv:2", "quote has no end"}));
   EXPECT_TRUE(containsAll(misuseOf([&] { readTable(folder.path() / "no.csv"); }), {"no.csv"}));
   EXPECT_TRUE(containsAll(misuseOf([] { (void)sample().column("valu"); }), {"valu", "'value'"}));
 }
