@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "experiments/tables/table_rows.h"
@@ -14,8 +16,8 @@
 namespace irk {
 
 /// A group is all rows with the same cells in these columns, its name. Groups are in the order of their first rows.
-/// Memory holds 44 bytes per group, 24 more for each further piece of one whose rows do not follow each other, and the
-/// rows in use. Not thread-safe. Throws what readTable throws, and Failure if two names have the same hash.
+/// Memory holds 16 bytes per row, about 45 per group, and the rows in use. Not thread-safe. Throws what readTable
+/// throws, and Failure if two names have the same hash.
 class GroupedFile {
  public:
   /// Reads the file once. Throws Misuse for an unknown column.
@@ -23,12 +25,12 @@ class GroupedFile {
 
   /// Head and columns, no rows.
   const Table& names() const { return file_.names(); }
-  std::size_t rows() const { return rows_; }
+  std::size_t rows() const { return places_.size(); }
   /// Visits all rows in the order of the file.
   void forEachRow(const std::function<void(const TableRow&)>& take) const;
 
   /// The number of groups.
-  std::size_t size() const { return first_.size() - 1; }
+  std::size_t size() const { return numbers_.size(); }
   /// The number of the group with this name.
   std::optional<std::size_t> find(const TableRow& name) const;
   /// The name of the group that the row belongs to.
@@ -41,26 +43,18 @@ class GroupedFile {
   void forEachRowOf(const std::vector<std::size_t>& groups, const std::function<void(TableRow row)>& take) const;
 
  private:
-  /// Rows of one group that follow each other in the file.
-  struct Piece {
-    std::uint64_t group;  // where its first row begins
+  /// Where a row begins.
+  struct Place {
+    std::uint32_t group;
     std::uint64_t begin;
-    std::uint32_t rows;
   };
-  struct Name {
-    std::uint64_t hash;
-    std::uint64_t group;  // as above
-  };
-  void findPieces();
-  void sortGroups();
+  std::span<const Place> placesOf(std::size_t group) const;
 
   mutable TableFile file_;
-  std::uint64_t start_;             // of the first row
-  std::vector<std::size_t> cells_;  // places of the columns in a row
-  std::size_t rows_ = 0;
-  std::vector<Piece> pieces_;         // by group, then in the order of the file
-  std::vector<std::uint32_t> first_;  // number of each group's first piece, and of all pieces
-  std::vector<Name> names_;           // by hash
+  std::uint64_t start_;                                       // of the first row
+  std::vector<std::size_t> cells_;                            // places of the columns in a row
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // of groups, by the hashes of their names
+  std::vector<Place> places_;                                 // by group, then in the order of the file
 };
 
 }  // namespace irk
