@@ -4,13 +4,11 @@
 #include <fmt/ostream.h>
 
 #include <charconv>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <set>
 #include <sstream>
 
-#include "core/base/input_file.h"
 #include "experiments/audit/audit.h"
 #include "experiments/base/child_process.h"
 #include "experiments/base/failure.h"
@@ -174,12 +172,8 @@ int statusCommand(const RunOptions& options, Streams streams) {
   if (store.runs().damaged() > 0) {
     fmt::print(streams.out, "  {} rows cannot be read: irk run sets them aside\n", store.runs().damaged());
   }
-  requireRegularFile(folder / "lock");
-  std::ifstream lock(folder / "lock");
-  std::string host, process, date;
-  if (lock >> host >> process >> date) {
-    fmt::print(streams.out, "  process {} on {} writes there since {}\n", process, host, date);
-  }
+  const std::string writer = store::writerIn(folder);
+  if (!writer.empty()) fmt::print(streams.out, "  {}\n", writer);
   return 0;
 }
 

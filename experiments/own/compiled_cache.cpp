@@ -1,13 +1,10 @@
 #include "experiments/own/compiled_cache.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -129,12 +126,10 @@ std::optional<std::string> CachedObject::failure() const {
   return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-CompileLock::CompileLock(const CachedObject& object, const std::string& source, std::ostream& log) {
+CompileLock::CompileLock(const CachedObject& object, const std::string& source, std::ostream& log)
+    : lock_(fs::path(object.object_).replace_extension(".lock")) {
   constexpr auto kNap = std::chrono::milliseconds(20);
-  auto file = object.object_;
-  file.replace_extension(".lock");
-  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  while (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
+  while (lock_.take() == FileLock::State::kBusy) {
     if (!waited_) {
       fmt::print(log, "irk: waiting for another process that compiles {}\n", source);
       log.flush();
@@ -143,10 +138,6 @@ CompileLock::CompileLock(const CachedObject& object, const std::string& source, 
     if (interruptFlag()) throw Failure("interrupted while another process compiles " + source);
     std::this_thread::sleep_for(kNap);
   }
-}
-
-CompileLock::~CompileLock() {
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 }  // namespace irk::own

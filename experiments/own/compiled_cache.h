@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/base/file_lock.h"
+
 namespace irk::own {
 
 /// The folder `compiled` of the user's cache. Throws Misuse, naming the folder, if it belongs to another user or can be
@@ -45,19 +47,16 @@ class CachedObject {
   friend class CompileLock;
 };
 
-/// Only one process compiles a file at a time. The system frees the lock of a process that ends. Where the file system
-/// has no locks, several may compile, each to a file of its own.
+/// Only one process compiles a file at a time. Where the file system has no locks (FileLock), several may compile, each
+/// to a file of its own.
 class CompileLock {
  public:
   /// Waits, with a line on `log`, until no other process holds it or until an interrupt.
   CompileLock(const CachedObject& object, const std::string& source, std::ostream& log);
-  ~CompileLock();
-  CompileLock(const CompileLock&) = delete;
-  CompileLock& operator=(const CompileLock&) = delete;
   bool waited() const { return waited_; }
 
  private:
-  int descriptor_ = -1;
+  FileLock lock_;
   bool waited_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include "experiments/base/file_lock.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study.h"
@@ -40,6 +41,8 @@ TEST_F(Verbs, QuickResultsAreATreeOfTheirOwn) {
 
 TEST_F(Verbs, ASecondWriterIsStatusOne) {
   std::filesystem::create_directories(results() + "/small");
+  FileLock lock(results() + "/small/lock");
+  ASSERT_EQ(lock.take(), FileLock::State::kTaken);
   std::ofstream(results() + "/small/lock") << "elsewhere 4711 2026-01-01T00:00:00Z\n";
   const Ended ended = run();
   EXPECT_EQ(ended.status, 1);

@@ -30,7 +30,8 @@ tolerances = [1e-3, 1e-4, 1e-5, 1e-6]
 TEST_F(Writers, ASecondWriterIsToldWhoWrites) {
   const Store first(folder(), "small", Use::kWrite, {}, told_);
   const auto message = failureOf([&] { run(); });
-  EXPECT_TRUE(containsAll(message, {folder().string(), std::to_string(getpid()), hostName(), "--wait", "lock", "20"}));
+  EXPECT_TRUE(containsAll(message, {folder().string(), std::to_string(getpid()), hostName(), "--wait", "20"}));
+  EXPECT_TRUE(containsAll(store::writerIn(folder()), {std::to_string(getpid()), hostName(), "writes there since 20"}));
   EXPECT_EQ(reader().runs().size(), 0u) << "readers are not kept out";
 }
 
@@ -48,53 +49,34 @@ TEST_F(Writers, ASecondWriterWaits) {
   second.join();
   EXPECT_EQ(runs.rows.size(), 9u);
   EXPECT_TRUE(containsAll(told.str(), {"waiting", std::to_string(getpid())}));
-  EXPECT_FALSE(std::filesystem::exists(folder() / "lock"));
+  EXPECT_EQ(store::writerIn(folder()), "");
 }
 
-TEST_F(Writers, TheLockOfADeadProcessIsTakenOver) {
+// Whatever the file says.
+TEST_F(Writers, TheLockOfADeadProcessIsFree) {
   const pid_t child = startProcess([&] {
     std::ostringstream quiet;
     const Store held(folder(), "small", Use::kWrite, {}, quiet);
-    _exit(0);  // without removing the lock
+    kill(getpid(), SIGKILL);
     return 1;
   });
-  ASSERT_EQ(exitStatusOf(child), 0);
-  ASSERT_TRUE(std::filesystem::exists(folder() / "lock"));
-  EXPECT_EQ(run().rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told_.str(), {std::to_string(child), "is no more"}));
-  // It is unknown whether a process on another host still exists.
-  std::ofstream(folder() / "lock") << "elsewhere " << child << " 2020-01-01T00:00:00Z\n";
-  EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"elsewhere", "2020-01-01", "remove"}));
-}
-
-// A killed process exists until its parent asks for its status.
-TEST_F(Writers, TheLockOfAZombieIsTakenOver) {
-  const pid_t child = startProcess([] { return 0; });
   siginfo_t info;
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT), 0);
-  std::filesystem::create_directories(folder());
-  std::ofstream(folder() / "lock") << hostName() << ' ' << child << " 2020-01-01T00:00:00Z\n";
-  EXPECT_EQ(run().rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told_.str(), {std::to_string(child), "is no more"}));
-  EXPECT_EQ(exitStatusOf(child), 0);
+  EXPECT_TRUE(containsAll(contentsOf(folder() / "lock"), {std::to_string(child)}));
+  EXPECT_EQ(store::writerIn(folder()), "");
+  EXPECT_EQ(run().rows.size(), 9u) << "while its parent has not asked for its status";
+  EXPECT_EQ(exitStatusOf(child), -1);
 }
 
-// The number of a dead process may be that of another one: here of this one, which started at another time.
-TEST_F(Writers, TheLockOfAnEarlierProcessOfTheSameNumberIsTakenOver) {
+// A writer is killed, or starts, between locking the file and writing into it.
+TEST_F(Writers, AnEmptyLockHasAHolderOrNone) {
   std::filesystem::create_directories(folder());
-  std::ofstream(folder() / "lock") << hostName() << ' ' << getpid() << " 2020-01-01T00:00:00Z 1\n";
+  {
+    FileLock other(folder() / "lock");
+    ASSERT_EQ(other.take(), FileLock::State::kTaken);
+    EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"another process writes there", "--wait"}));
+  }
   EXPECT_EQ(run().rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told_.str(), {std::to_string(getpid()), "is no more"}));
-  std::ofstream(folder() / "lock") << hostName() << ' ' << getpid() << " 2020-01-01T00:00:00Z\n";
-  EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {std::to_string(getpid())})) << "the start is not known";
-}
-
-// Its holder was killed between making and writing it.
-TEST_F(Writers, AnEmptyLockIsTakenOver) {
-  std::filesystem::create_directories(folder());
-  std::ofstream(folder() / "lock").close();
-  EXPECT_EQ(run("results", {.if_locked = store::IfLocked::kWait}).rows.size(), 9u);
-  EXPECT_TRUE(containsAll(told_.str(), {"empty", "going on"}));
 }
 
 // Devices may have no end, and a pipe waits for its writer.
@@ -103,6 +85,16 @@ TEST_F(Writers, ALockThatIsADeviceIsRefused) {
   std::filesystem::create_symlink("/dev/null", folder() / "lock");
   const auto message = refusal([&] { run(); });
   EXPECT_TRUE(containsAll(message, {"lock", "a device", "regular file"})) << message;
+}
+
+// In a folder that is shared, somebody may have put a link there.
+TEST_F(Writers, ALockThatIsALinkIsRefused) {
+  std::filesystem::create_directories(folder());
+  const auto target = folder_.path() / "precious";
+  std::ofstream(target) << "kept";
+  std::filesystem::create_symlink(target, folder() / "lock");
+  EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"cannot open", "lock"}));
+  EXPECT_EQ(contentsOf(target), "kept");
 }
 
 // Two writers without locks, as on a file system whose locks do not work: no row is lost or torn.
