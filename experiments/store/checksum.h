@@ -1,16 +1,11 @@
-// A checksum at the end of each line of a part file.
+// A checksum at the end of each line of a part file: fnv1a, which differs for any two texts of one length that differ
+// in one byte, and for all but one in 2e19 other pairs.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace irk::store {
-
-/// A hash of 64 bits that differs for any two texts of one length that differ within eight bytes at a multiple of
-/// eight, and for all but one in 2e19 other pairs. It is the same on every machine, and takes a tenth of the time of
-/// fnv1a.
-std::uint64_t checksum(std::string_view bytes);
 
 /// The line of a row, without a line end, with a last cell of 16 hexadecimal digits: the checksum of what stands before
 /// its comma.
