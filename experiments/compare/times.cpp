@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
+#include "experiments/base/median.h"
 #include "experiments/base/numbers.h"
 #include "experiments/compare/ratio.h"
 #include "experiments/tables/timing_class.h"
@@ -19,7 +21,6 @@ namespace {
 constexpr std::size_t kFew = 5;
 // The factor by which minima of fewer repetitions, which are not tested, must differ.
 constexpr double kFewFactor = 2;
-constexpr double kBinWidth = 1e-4;  // of a logarithm
 
 std::size_t placeOf(const Table& names, std::string_view column) {
   return names.hasColumn(column) ? names.column(column) : names.columns.size();
@@ -32,24 +33,6 @@ double factorOf(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
   const double factor = std::max(a, b) / std::min(a, b);
   return std::isfinite(factor) ? factor : std::numeric_limits<double>::infinity();
-}
-
-void Spread::add(double number) {
-  Bin& bin = bins_[std::llround(std::log(number) / kBinWidth)];
-  ++bin.count;
-  bin.sum += number;
-  ++count_;
-  least_ = std::min(least_, number);
-  most_ = std::max(most_, number);
-}
-
-double Spread::middle() const {
-  std::size_t below = 0;
-  for (const auto& [place, bin] : bins_) {
-    below += bin.count;
-    if (below > count_ / 2) return bin.sum / static_cast<double>(bin.count);
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 TimeComparer::Columns::Columns(const Runs& its, const Table& names)
@@ -129,7 +112,7 @@ void TimeComparer::note(const Pair& pair) {
   ++times_.compared;
   // With every further run the level of each test falls and its interval grows: what is noise now remains noise.
   const Ratio ratio = ratioOf(timed.first, timed.second, limits_.alpha / static_cast<double>(times_.compared));
-  ratios_.add(ratio.ratio);
+  ratios_.push_back(ratio.ratio);
   if (!isNoise(timed, ratio.low, ratio.high)) slower_or_faster_.push_back({pair.first_at, pair.second_at});
 }
 
@@ -146,9 +129,10 @@ Times TimeComparer::judge(const Tell& tell) {
       tell(pair, fmt::format("time x {:.3g} ({})", ratio.ratio, how), factorOf(1, ratio.ratio));
     });
   }
-  times_.least = ratios_.least();
-  times_.median = ratios_.middle();
-  times_.most = ratios_.most();
+  const auto [least, most] = std::minmax_element(ratios_.begin(), ratios_.end());
+  times_.least = *least;
+  times_.median = median(std::move(ratios_));
+  times_.most = *most;
   return times_;
 }
 

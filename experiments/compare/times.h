@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,25 +15,6 @@ namespace irk::compare {
 
 /// The larger number divided by the smaller: 1 for equal numbers, infinity if one of them is 0 or unknown.
 double factorOf(double a, double b);
-
-/// Least, middle and most of any number of positive numbers: the middle is the mean of those that differ from it by
-/// about 1e-4.
-class Spread {
- public:
-  void add(double number);
-  double least() const { return least_; }
-  double most() const { return most_; }
-  double middle() const;
-
- private:
-  struct Bin {
-    std::size_t count = 0;
-    double sum = 0;
-  };
-  std::map<std::int64_t, Bin> bins_;  // by logarithm
-  std::size_t count_ = 0;
-  double least_ = std::numeric_limits<double>::infinity(), most_ = 0;
-};
 
 /// Compares the times of pairs of successful runs. Keeps references to its arguments.
 class TimeComparer {
@@ -74,7 +54,7 @@ class TimeComparer {
   Matching& matching_;
   Columns first_, second_;
   Times times_;
-  Spread ratios_;
+  std::vector<double> ratios_;           // of all that are compared
   std::vector<Place> slower_or_faster_;  // that may be more than noise
 };
 

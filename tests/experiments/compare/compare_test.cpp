@@ -75,6 +75,15 @@ TEST(Compare, NothingChangedIsNoDifference) {
   EXPECT_DOUBLE_EQ(same.times.median, 1);
 }
 
+TEST(Compare, LeastMedianAndMostOfTheTimes) {
+  Made other = someRuns();
+  for (const std::size_t i : {4u, 2u, 5u, 3u}) setTime(other, i, 0.01 * static_cast<double>(i));
+  const Times times = compared(someRuns(), other, {}).times;
+  EXPECT_NEAR(times.least, 1, 1e-12);
+  EXPECT_NEAR(times.median, 2.5, 1e-12);
+  EXPECT_NEAR(times.most, 5, 1e-12);
+}
+
 TEST(Compare, RunsAreMatchedBySettingsNotByKeysAndDigits) {
   Made other = someRuns();
   for (auto& row : other.table.rows) row[0] = "another version's key " + row[0];

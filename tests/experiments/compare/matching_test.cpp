@@ -1,4 +1,4 @@
-// Rows of two tables that stand for the same run, and the summary of their times.
+// Rows of two tables that stand for the same run.
 #include "experiments/compare/matching.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/times.h"
 #include "experiments/runs/run_table.h"
 #include "tests/experiments/support.h"
 
@@ -47,18 +46,6 @@ TEST(Matching, FindsEachRunInBothTables) {
   });
   EXPECT_EQ(both, 9009u);
   EXPECT_EQ(only, (std::vector<std::string>{"first kepler gauss_2 h=-7", "second kepler gauss_2 h=-8"}));
-}
-
-// The middle of 1, 2, ... n, in any order.
-TEST(Spread, IsOfAllNumbers) {
-  Spread spread;
-  for (int i = 0; i < 1001; ++i) spread.add(1 + 5 * i % 1001);
-  EXPECT_EQ(spread.least(), 1);
-  EXPECT_EQ(spread.most(), 1001);
-  EXPECT_NEAR(spread.middle(), 501, 501 * 1e-4);
-  Spread few;
-  for (const double number : {4.0, 1.5, 3.0}) few.add(number);
-  EXPECT_EQ(few.middle(), 3);
 }
 
 }  // namespace
