@@ -1,4 +1,4 @@
-// The figures of an own study whose file asks for none, chosen by what varies in each block.
+// The figures of an own study whose file asks for none.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 namespace irk {
 
 /// For each block:
-///  - tolerances: work over error (`work_by`), one curve per method or, with one method, per value of what varies;
-///    one panel per scene;
-///  - steps: error over step (`error_vs_step`), and with `orders` the orders over the stages (`order_vs_stages`);
-///  - several numbers of stages of one family: cost over stages (`cpu_vs_stages`, with `targets`), and with several
-///    levels, too, the map of digits and failures (`failure_map`);
-/// and the figures of the other analyses. Settings that vary beside the curves give one figure for each combination,
-/// six at most. Costs are CPU times if the study measures them, else residual evaluations.
+///  - tolerances: work over error (`work_by`), a panel per scene, six at most, and a curve per method, per integrator
+///    if configurations vary or, with one method, per value of what varies. Costs are CPU times if the study measures
+///    them, else residual evaluations;
+///  - steps: for each scene error over step (`error_vs_step`), and with `orders` the orders over the stages
+///    (`order_vs_stages`).
+/// Settings that vary beside the curves give a figure for each combination, six at most. Then the figures of the other
+/// analyses and of `trajectories`; of an audit, its two figures only.
 std::vector<FigureTable> defaultFigures(const Study& study);
 
 }  // namespace irk

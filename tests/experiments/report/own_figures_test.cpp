@@ -105,16 +105,7 @@ tolerances = [1e-3, 1e-4]
   EXPECT_TRUE(containsAll(optionsOf(tables, 0), {"variant='newton'", "costs='cpu_s'"}));
   tables = figures(kBlock + "configuration = [\"default\", \"paper\", \"embedded\"]\n");
   ASSERT_EQ(tables.figures.size(), 1u);
-  EXPECT_TRUE(containsAll(optionsOf(tables, 0), {"variant='configuration'"}));
-
-  // Stages: cost at an error and the map.
-  tables =
-      figures("targets = [1e-3]\n" +
-              std::string("[[block]]\nscene = \"kepler\"\nfamilies = [\"gauss\", \"radau_iia\"]\nstages = \"1..4\"\n"
-                          "tolerances = [1e-3, 1e-4, 1e-5]\n"));
-  EXPECT_EQ(scripts(tables), (std::vector<std::string>{"work_by", "cpu_vs_stages", "cpu_vs_stages", "failure_map"}));
-  EXPECT_TRUE(containsAll(optionsOf(tables, 1), {"family='gauss'", "cases='block=block_1:kepler'"}));
-  EXPECT_TRUE(containsAll(optionsOf(tables, 3), {"y='rtol'", "block='block_1'"}));
+  EXPECT_TRUE(containsAll(optionsOf(tables, 0), {"variant='integrator'"}));
 
   // Steps: the error, and the orders with their components.
   tables = figures(
@@ -124,6 +115,11 @@ tolerances = [1e-3, 1e-4]
             (std::vector<std::string>{"error_vs_step", "error_vs_step", "order_vs_stages", "order_vs_stages"}));
   EXPECT_TRUE(containsAll(optionsOf(tables, 0), {"component='u'", "families='gauss'", "only='formulation=index2'"}));
   EXPECT_TRUE(containsAll(optionsOf(tables, 3), {"components='u v z'", "formulation='index3'"}));
+  tables = figures(
+      "[[block]]\nscene = \"kepler\"\nmethods = [\"gauss_2\", \"gauss_3\"]\nsteps = [0.1, 0.05]\n"
+      "configuration = [\"default\", \"paper\"]\n");
+  EXPECT_EQ(scripts(tables), (std::vector<std::string>{"error_vs_step", "error_vs_step"}));
+  EXPECT_TRUE(containsAll(optionsOf(tables, 1), {"only='configuration=paper'"}));
 }
 
 TEST_F(OwnFigures, ByDefaultDrawSolutionsThatAreKept) {
