@@ -311,7 +311,6 @@ class Program {
     auto* completion = verb(app_, "completion", "a script for the shell that completes verbs, options and their values",
                             [this](Streams s) { return printCompletion(shell_, s.out), 0; });
     completion->add_option("shell", shell_, "bash, zsh or fish")->required();
-    verb(app_, "man", "this help as a manual page (roff)", [this](Streams s) { return printManual(app_, s.out), 0; });
   }
 
   CLI::App app_;

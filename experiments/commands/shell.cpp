@@ -13,7 +13,6 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/study/builtin_studies.h"
-#include "experiments/tables/build_info.h"
 #include "irk/tableaus.h"
 
 namespace irk {
@@ -23,21 +22,6 @@ using Words = std::vector<std::string>;
 
 // Methods with more stages are not offered for completion.
 constexpr Index kCompletedStages = 9;
-
-struct Verb {
-  std::string name;  // "solve", "tableau show"
-  const CLI::App* app;
-};
-
-std::vector<Verb> verbsOf(const CLI::App& program) {
-  std::vector<Verb> verbs;
-  for (const CLI::App* sub : program.get_subcommands({})) {
-    const auto inner = sub->get_subcommands({});
-    for (const CLI::App* child : inner) verbs.push_back({sub->get_name() + ' ' + child->get_name(), child});
-    if (inner.empty()) verbs.push_back({sub->get_name(), sub});
-  }
-  return verbs;
-}
 
 Words scenes() {
   Words ids;
@@ -153,30 +137,6 @@ int printValues(const std::vector<const CLI::Option*>& options, std::ostream& ou
   return files ? 0 : kFailedStatus;
 }
 
-// Text of roff: no line begins with a control character, and dashes are those of the keyboard.
-std::string roff(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '-') {
-      safe += "\\-";
-    } else if (c == '\\') {
-      safe += "\\e";
-    } else if ((c == '.' || c == '\'') && (safe.empty() || safe.back() == '\n')) {
-      safe += std::string("\\&") + c;
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-void printEntry(const CLI::Option& option, std::ostream& out) {
-  std::string type = option.get_items_expected_max() == 0 ? "" : option.get_type_name();
-  type = type.substr(0, type.find(':'));  // the values follow in the text
-  fmt::print(out, ".TP\n\\fB{}\\fR{}\n{}\n", roff(nameOf(option)), roff(type.empty() ? "" : ' ' + type),
-             roff(option.get_description()));
-}
-
 }  // namespace
 
 std::string examplesOf(const std::string& verb) {
@@ -208,7 +168,6 @@ std::string examplesOf(const std::string& verb) {
       {"tableau export", "  irk tableau export radau_iia_3 > my_method.txt"},
       {"tableau plot", "  irk tableau plot gauss_3 radau_iia_3 --out regions"},
       {"completion", "  source <(irk completion bash)\n  irk completion fish > ~/.config/fish/completions/irk.fish"},
-      {"man", "  irk man > irk.1; man ./irk.1"},
   };
   const auto found = examples.find(verb);
   return found == examples.end() ? "" : found->second;
@@ -240,27 +199,6 @@ int printNextWords(const CLI::App& program, std::vector<std::string> words, std:
   }
   for (const CLI::App* inner : verb->get_subcommands({})) printWord(inner->get_name(), inner->get_description(), out);
   return printValues(parts.arguments, out);
-}
-
-void printManual(const CLI::App& program, std::ostream& out) {
-  fmt::print(out, ".TH IRK 1 \"\" \"irk {}\"\n.SH NAME\nirk \\- {}\n", buildInfo().version,
-             roff(program.get_description()));
-  fmt::print(out, ".SH SYNOPSIS\n\\fBirk\\fR \\fIverb\\fR [\\fIarguments\\fR] [\\fIoptions\\fR]\n.SH VERBS\n");
-  for (const Verb& verb : verbsOf(program)) {
-    const Parts parts = partsOf(*verb.app);
-    fmt::print(out, ".SS irk {}", verb.name);
-    for (const CLI::Option* argument : parts.arguments) fmt::print(out, " {}", argument->get_name());
-    fmt::print(out, "\n{}\n", roff(verb.app->get_description()));
-    for (const CLI::Option* argument : parts.arguments) printEntry(*argument, out);
-    for (const CLI::Option* option : parts.options) {
-      if (nameOf(*option) != "--help") printEntry(*option, out);
-    }
-    const std::string examples = examplesOf(verb.name);
-    if (!examples.empty()) fmt::print(out, ".PP\nExamples:\n.PP\n.nf\n{}\n.fi\n", roff(examples));
-  }
-  fmt::print(out,
-             ".SH EXIT STATUS\n0 success; 1 the run failed; 2 misuse, with one line that says what and where; 130 "
-             "interrupted.\n");
 }
 
 }  // namespace irk

@@ -1,4 +1,4 @@
-// Completion and the manual page, made from the options of the command line.
+// Completion, made from the options of the command line, and examples of verbs.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,8 +19,5 @@ void printCompletion(const std::string& shell, std::ostream& out);
 /// values, one a line, a description behind a tab. Words that do not begin like the last one are for the shell to leave
 /// out. Returns 0 if a file may stand there as well, else 1.
 int printNextWords(const CLI::App& program, std::vector<std::string> words, std::ostream& out);
-
-/// Prints a manual page in roff.
-void printManual(const CLI::App& program, std::ostream& out);
 
 }  // namespace irk

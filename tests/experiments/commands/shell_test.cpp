@@ -43,7 +43,7 @@ class Completion : public testing::Test {
 };
 
 TEST_F(Completion, OffersVerbsOptionsAndValues) {
-  EXPECT_TRUE(containsAll(offered({"irk", ""}), {" solve ", " run ", " tableau ", " completion ", " man "}));
+  EXPECT_TRUE(containsAll(offered({"irk", ""}), {" solve ", " run ", " tableau ", " completion "}));
   EXPECT_EQ(offered({"irk", "sol"}), " solve \n");
   EXPECT_TRUE(containsAll(offered({"irk", "solve", "sli"}), {" slider_crank "}));
   EXPECT_TRUE(containsAll(offered({"irk", "solve", "kepler", "--method", "rad"}), {" radau_iia_5 ", " radau_ia_2 "}));
@@ -61,7 +61,7 @@ TEST_F(Completion, OffersVerbsOptionsAndValues) {
 // What a script asks: a word a line, its description behind a tab; status 0 where a file may stand as well.
 TEST_F(Completion, AsksTheProgram) {
   const Ended verbs = program({"complete"}), same = program({"complete", ""});
-  EXPECT_TRUE(containsAll(verbs.out, {"solve\tone integration\n", "man\t"})) << verbs.out;
+  EXPECT_TRUE(containsAll(verbs.out, {"solve\tone integration\n", "query\t"})) << verbs.out;
   EXPECT_EQ(verbs.out, same.out);
   EXPECT_EQ(verbs.status, 1);
   EXPECT_EQ(program({"complete", "new", ""}).out, "scene\t\n");
@@ -139,22 +139,6 @@ TEST_F(Completion, OfUnknownShellsIsRefused) {
   const Ended none = program({"completion", "fsh"});
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(containsAll(none.err, {"shell", "fsh", "bash, zsh, fish"})) << none.err;
-}
-
-TEST(Manual, HasEveryVerbOptionAndExample) {
-  const Ended manual = program({"man"});
-  ASSERT_EQ(manual.status, 0) << manual.err;
-  EXPECT_TRUE(containsAll(manual.out, {".TH IRK 1", ".SH NAME", ".SS irk solve scene", ".SS irk tableau show method",
-                                       "\\-\\-points", "\\-\\-newton", "irk solve slider_crank", ".SH EXIT STATUS"}));
-  // Of roff: each line is text or a known request.
-  std::istringstream lines(manual.out);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with('.') && !line.starts_with('\'')) continue;
-    const std::string request = line.substr(0, line.find(' '));
-    EXPECT_TRUE(request == ".TH" || request == ".SH" || request == ".SS" || request == ".TP" || request == ".PP" ||
-                request == ".nf" || request == ".fi")
-        << line;
-  }
 }
 
 // The examples of `solve` that write no file.
