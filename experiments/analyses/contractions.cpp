@@ -7,7 +7,6 @@
 #include "core/newton/newton_base.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
@@ -116,16 +115,9 @@ void writeContractions(const Study& study, const RunFile& runs, const std::files
   columns.insert(columns.end(), {"rtol", "solve", "iterations"});
   for (std::size_t k = 1; k <= kMostIterations; ++k) columns.push_back("c" + std::to_string(k));
   TableWriter table(file, names.head, columns);
-  const SpecsByKey specs(study);
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto spec = specs.find(run->front());
-      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
-          spec->options.newton.kind != NewtonKind::kModified || !spec->scalar.isDouble()) {
-        continue;
-      }
-      appendRun(series.name, textAt(names, *run, "rtol"), observedContractions(*spec), table);
-    }
+  repeatRuns(study, runs, nullptr, [&](const RunSeries& series, const TableRow& row, const RunSpec& spec) {
+    if (spec.options.newton.kind != NewtonKind::kModified || !spec.scalar.isDouble()) return;
+    appendRun(series.name, textAt(names, row, "rtol"), observedContractions(spec), table);
   });
   table.close();
 }

@@ -8,7 +8,6 @@
 #include "experiments/analyses/line_fit.h"
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
@@ -80,26 +79,19 @@ void writeEnergy(const Study& study, const RunFile& runs, const std::filesystem:
   auto columns = seriesColumns(names);
   columns.insert(columns.end(), {"h", "t", "energy_error", "drift", "scatter", "largest"});
   TableWriter table(file, names.head, columns);
-  const SpecsByKey specs(study);
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto found = specs.find(run->front());
-      if (!found || !succeededAt(names, *run) || interruptFlag()) continue;
-      const RunSpec& spec = *found;
-      const auto scene = sceneOf<BigFloat>(spec);
-      const auto* energy = energyOf(scene);
-      const bool fixed = hasFixedSteps(spec.options.step);
-      if (!energy || !fixed || findPeer(spec.method)) continue;
-      const EnergyErrors errors = integrate(spec, *energy);
-      const EnergyDrift drift = energyDrift(errors.t, errors.error);
-      for (std::size_t i = 0; i < errors.t.size(); ++i) {
-        TableRow row = series.name;
-        for (const double x :
-             {spec.options.step.h, errors.t[i], errors.error[i], drift.drift, drift.scatter, drift.largest}) {
-          row.push_back(numberText(x));
-        }
-        table.add(row);
+  repeatRuns(study, runs, nullptr, [&](const RunSeries& series, const TableRow&, const RunSpec& spec) {
+    const auto scene = sceneOf<BigFloat>(spec);
+    const auto* energy = energyOf(scene);
+    if (!energy || !hasFixedSteps(spec.options.step)) return;
+    const EnergyErrors errors = integrate(spec, *energy);
+    const EnergyDrift drift = energyDrift(errors.t, errors.error);
+    for (std::size_t i = 0; i < errors.t.size(); ++i) {
+      TableRow row = series.name;
+      for (const double x :
+           {spec.options.step.h, errors.t[i], errors.error[i], drift.drift, drift.scatter, drift.largest}) {
+        row.push_back(numberText(x));
       }
+      table.add(row);
     }
   });
   table.close();

@@ -7,9 +7,7 @@
 #include <optional>
 
 #include "core/estimates/step_attempt.h"
-#include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
@@ -128,19 +126,10 @@ void writeEstimates(const Study& study, const RunFile& runs, const std::filesyst
   auto columns = seriesColumns(names);
   columns.insert(columns.end(), {"rtol", "t", "h", "group", "difference", "error", "doubling", "richardson"});
   TableWriter table(file, names.head, columns);
-  const SpecsByKey specs(study);
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto spec = specs.find(run->front());
-      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method) ||
-          spec->options.step.estimate == ErrorEstimate::kNone || !spec->scalar.isDouble()) {
-        continue;
-      }
-      const StepSampler sampler(*spec);
-      for (const Step& step : sampler.steps()) {
-        appendStep(sampler, step, series.name, names, *run, table);
-      }
-    }
+  repeatRuns(study, runs, nullptr, [&](const RunSeries& series, const TableRow& row, const RunSpec& spec) {
+    if (spec.options.step.estimate == ErrorEstimate::kNone || !spec.scalar.isDouble()) return;
+    const StepSampler sampler(spec);
+    for (const Step& step : sampler.steps()) appendStep(sampler, step, series.name, names, row, table);
   });
   table.close();
 }

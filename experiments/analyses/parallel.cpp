@@ -12,7 +12,6 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
@@ -101,29 +100,13 @@ Table parallelTable(const Study& study, const RunFile& runs, const std::vector<i
   Table table{names.head, seriesColumns(names), {}};
   table.columns.insert(table.columns.end(),
                        {"n", "way", "processors", "wall_s", "speedup", "efficiency", "serial_share"});
-  const SpecsByKey specs(study);
   Progress progress(out, study.id + " on " + std::to_string(processors.back()) + " processors");
-  runs.forEachRow([&](const TableRow& row) { progress.expect(textAt(names, row, "settings")); });
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto& kind = textAt(names, *run, "settings");
-      const auto spec = specs.find(run->front());
-      if (!spec || findPeer(spec->method) || !succeededAt(names, *run) || interruptFlag()) {
-        progress.skipped(kind);
-        continue;
-      }
-      const double start = wallSeconds();
-      TableRow row = series.name;
-      row.push_back(std::to_string(makeSetup<double>(*spec).system->sizes().n()));
-      ParallelMeasurement measurement(*spec, processors);
-      measurement.measure();
-      if (interruptFlag()) {
-        progress.skipped(kind);
-        continue;
-      }
-      measurement.appendRows(row, table);
-      progress.finished(kind, wallSeconds() - start);
-    }
+  repeatRuns(study, runs, &progress, [&](const RunSeries& series, const TableRow&, const RunSpec& spec) {
+    TableRow row = series.name;
+    row.push_back(std::to_string(makeSetup<double>(spec).system->sizes().n()));
+    ParallelMeasurement measurement(spec, processors);
+    measurement.measure();
+    if (!interruptFlag()) measurement.appendRows(row, table);
   });
   return table;
 }

@@ -18,7 +18,6 @@
 #include "experiments/base/interrupt.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
@@ -235,21 +234,9 @@ std::string doubtfulShares(const Table& phases) {
 Table phaseTable(const Study& study, const RunFile& runs, std::ostream& out) {
   const Table& names = runs.names();
   Table table{names.head, phaseColumns(names), {}};
-  const SpecsByKey specs(study);
   Progress progress(out, study.id + " phases");
-  runs.forEachRow([&](const TableRow& row) { progress.expect(textAt(names, row, "settings")); });
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto spec = specs.find(run->front());
-      const auto& kind = textAt(names, *run, "settings");
-      if (!spec || !succeededAt(names, *run) || interruptFlag() || findPeer(spec->method)) {
-        progress.skipped(kind);
-        continue;
-      }
-      const double start = wallSeconds();
-      table.rows.push_back(phaseRow(names, *run, series.name, *spec));
-      progress.finished(kind, wallSeconds() - start);
-    }
+  repeatRuns(study, runs, &progress, [&](const RunSeries& series, const TableRow& row, const RunSpec& spec) {
+    table.rows.push_back(phaseRow(names, row, series.name, spec));
   });
   return table;
 }

@@ -1,4 +1,5 @@
-// runs.csv as analyses read it: one series at a time, so that a table may be larger than the memory.
+// runs.csv as analyses read it, one series at a time, so that a table may be larger than the memory; and as they repeat
+// its runs.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,9 @@
 #include "experiments/tables/grouped_file.h"
 
 namespace irk {
+
+class Progress;  // experiments/base/progress.h
+struct Study;
 
 /// A series (seriesOf) with its rows.
 struct HeldSeries {
@@ -31,5 +35,12 @@ class RunFile : public GroupedFile {
   HeldSeries operator[](std::size_t i) const;
   void forEachSeries(const std::function<void(const RunSeries&)>& take) const;
 };
+
+/// `series`: that of the run; `row`: the run's row in runs.csv.
+using RepeatRun = std::function<void(const RunSeries& series, const TableRow& row, const RunSpec& spec)>;
+
+/// Calls `repeat` for every successful run of the study that this suite's integrator made, one after another, until an
+/// interrupt. `progress` is told of all runs, unless it is nullptr.
+void repeatRuns(const Study& study, const RunFile& runs, Progress* progress, const RepeatRun& repeat);
 
 }  // namespace irk

@@ -7,11 +7,9 @@
 
 #include "experiments/analyses/line_fit.h"
 #include "experiments/base/clock.h"
-#include "experiments/base/interrupt.h"
 #include "experiments/base/median.h"
 #include "experiments/base/numbers.h"
 #include "experiments/base/progress.h"
-#include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/runs/setup.h"
 #include "experiments/study/analysis.h"
@@ -74,27 +72,12 @@ Table scalingTable(const Study& study, const RunFile& runs, std::ostream& out) {
   const Table& names = runs.names();
   Table table{names.head, seriesColumns(names), {}};
   table.columns.insert(table.columns.end(), {"n", "step_s", "step_cpu_s", "iterations"});
-  const SpecsByKey specs(study);
   Progress progress(out, study.id + " steps");
-  runs.forEachRow([&](const TableRow& row) { progress.expect(textAt(names, row, "settings")); });
-  runs.forEachSeries([&](const RunSeries& series) {
-    for (const auto* run : series.rows) {
-      const auto& kind = textAt(names, *run, "settings");
-      const auto found = specs.find(run->front());
-      const bool ours = found && !findPeer(found->method);
-      if (!ours || !succeededAt(names, *run) || interruptFlag()) {
-        progress.skipped(kind);
-        continue;
-      }
-      const double start = wallSeconds();
-      const StepCost cost = measure(*found);
-      TableRow row = series.name;
-      for (const double x : {cost.n, cost.wall_s, cost.cpu_s, cost.iterations}) {
-        row.push_back(numberText(x));
-      }
-      table.rows.push_back(std::move(row));
-      progress.finished(kind, wallSeconds() - start);
-    }
+  repeatRuns(study, runs, &progress, [&](const RunSeries& series, const TableRow&, const RunSpec& spec) {
+    const StepCost cost = measure(spec);
+    TableRow row = series.name;
+    for (const double x : {cost.n, cost.wall_s, cost.cpu_s, cost.iterations}) row.push_back(numberText(x));
+    table.rows.push_back(std::move(row));
   });
   return table;
 }
