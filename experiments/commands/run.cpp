@@ -5,15 +5,14 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "experiments/analyses/results.h"
 #include "experiments/audit/audit.h"
-#include "experiments/base/clock.h"
 #include "experiments/base/failure.h"
 #include "experiments/base/interrupt.h"
-#include "experiments/base/studies_progress.h"
 #include "experiments/claims/claims_text.h"
 #include "experiments/commands/commands.h"
 #include "experiments/own/crash.h"
@@ -27,7 +26,6 @@
 #include "experiments/runner/study_file.h"
 #include "experiments/runner/timing.h"
 #include "experiments/runs/run_table.h"
-#include "experiments/study/series_walk.h"
 #include "experiments/study/study_reader.h"
 #include "experiments/tables/environment.h"
 #include "irk/misuse.h"
@@ -35,45 +33,13 @@
 namespace irk {
 namespace {
 
-struct PaperStudy {
-  std::string_view id;
-  double ms_per_run;  ///< wall time with its share of the timing pass, measured once; only ratios matter
-};
-
 // Ordered for the reader: first the solutions, then their correctness, then their cost. `audit` is a study of its own:
 // it judges the whole program and takes as long as half of the others.
-constexpr PaperStudy kPaperStudies[] = {{"scenes", 1},
-                                        {"order", 110},
-                                        {"cpu_time", 62},
-                                        {"families", 70},
-                                        {"steps", 2},
-                                        {"discontinuity", 62},
-                                        {"flexible_contact", 35},
-                                        {"peers", 58},
-                                        {"work_precision", 109},
-                                        {"robustness", 22},
-                                        {"beam", 160},
-                                        {"heat", 620},
-                                        {"jacobian", 95},
-                                        {"newton_rule", 45},
-                                        {"contraction", 24},
-                                        {"newton_contact", 4},
-                                        {"k_form", 75},
-                                        {"phases", 600},
-                                        {"scaling", 230},
-                                        {"parallel", 1000},
-                                        {"control", 40},
-                                        {"estimate", 1},
-                                        {"reliability", 4},
-                                        {"claims", 17},
-                                        {"drift", 42},
-                                        {"conservation", 1500},
-                                        {"round_off", 125},
-                                        {"formulations", 60},
-                                        {"small_steps", 15},
-                                        {"failure_constraints", 1.3},
-                                        {"failure_stability", 0.5},
-                                        {"failure_newton", 2}};
+constexpr const char* kPaperStudies =
+    "scenes order cpu_time families steps discontinuity flexible_contact peers work_precision robustness beam "
+    "heat jacobian newton_rule contraction newton_contact k_form phases scaling parallel control estimate "
+    "reliability claims drift conservation round_off formulations small_steps failure_constraints "
+    "failure_stability failure_newton";
 
 /// How the runs of a study ended.
 struct Outcomes {
@@ -224,17 +190,6 @@ int runOne(const Study& study, const FigureTables& figures, const RunnerOptions&
   }
 }
 
-// The expected runs of all studies of the paper.
-StudiesProgress paperProgress(StudyVariant variant) {
-  std::vector<ExpectedStudy> expected;
-  for (const auto& [id, ms_per_run] : kPaperStudies) {
-    std::size_t runs = 0;
-    for (const Series& series : loadStudy(id, variant).series) runs += expectedRuns(series);
-    expected.push_back({std::string(id), runs, ms_per_run});
-  }
-  return StudiesProgress(std::move(expected));
-}
-
 }  // namespace
 
 int runCommand(const RunOptions& options, Streams streams) {
@@ -277,9 +232,8 @@ int runCommand(const RunOptions& options, Streams streams) {
 }
 
 std::vector<std::string> paperStudies() {
-  std::vector<std::string> ids;
-  for (const auto& study : kPaperStudies) ids.emplace_back(study.id);
-  return ids;
+  std::istringstream words(kPaperStudies);
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 int paperCommand(const RunOptions& options, Streams streams) {
@@ -290,11 +244,10 @@ int paperCommand(const RunOptions& options, Streams streams) {
   tableauTable(options.runner.results.string(), streams);
   int worst = 0;  // continue with the other studies if one fails
   std::vector<std::filesystem::path> folders;
-  const StudiesProgress progress = paperProgress(options.variant);
-  const double start = wallSeconds();
-  for (std::size_t i = 0; i < std::size(kPaperStudies); ++i) {
-    fmt::print(streams.err, "paper: {}\n", progress.line(i, wallSeconds() - start));
-    const Study study = loadStudy(kPaperStudies[i].id, options.variant);
+  const auto ids = paperStudies();
+  for (const auto& id : ids) {
+    fmt::print(streams.err, "paper: study {} of {}, {}\n", folders.size() + 1, ids.size(), id);
+    const Study study = loadStudy(id, options.variant);
     folders.push_back(studyFolder(study, options.runner));
     const int status = runOne(study, {}, options.runner, *alone, streams);
     if (status == kInterruptedStatus) return status;

@@ -62,7 +62,7 @@ TEST_F(Writers, TheLockOfADeadProcessIsFree) {
   });
   siginfo_t info;
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT), 0);
-  EXPECT_TRUE(containsAll(contentsOf(folder() / "lock"), {std::to_string(child)}));
+  EXPECT_TRUE(containsAll(readInputFile(folder() / "lock"), {std::to_string(child)}));
   EXPECT_EQ(store::writerIn(folder()), "");
   EXPECT_EQ(run().rows.size(), 9u) << "while its parent has not asked for its status";
   EXPECT_EQ(exitStatusOf(child), -1);
@@ -94,7 +94,7 @@ TEST_F(Writers, ALockThatIsALinkIsRefused) {
   std::ofstream(target) << "kept";
   std::filesystem::create_symlink(target, folder() / "lock");
   EXPECT_TRUE(containsAll(failureOf([&] { run(); }), {"cannot open", "lock"}));
-  EXPECT_EQ(contentsOf(target), "kept");
+  EXPECT_EQ(readInputFile(target), "kept");
 }
 
 // Two writers without locks, as on a file system whose locks do not work: no row is lost or torn.
