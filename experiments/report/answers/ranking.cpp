@@ -14,18 +14,6 @@ namespace {
 
 constexpr double kAsFast = 1.1;  // costs that differ by less are called equal
 
-std::map<std::string, double> leastCosts(const Costs& costs) {
-  std::map<std::string, double> least;
-  for (const auto& [solver, problems] : costs) {
-    for (const auto& [problem, cost] : problems) {
-      if (!std::isfinite(cost)) continue;
-      const auto [at, added] = least.try_emplace(problem, cost);
-      if (!added) at->second = std::min(at->second, cost);
-    }
-  }
-  return least;
-}
-
 // The mean of logarithms, as a factor.
 class GeometricMean {
  public:
@@ -43,7 +31,7 @@ class GeometricMean {
 
 }  // namespace
 
-std::vector<Ranked> ranking(const Costs& costs) {
+std::vector<Ranked> ranking(const SolverCosts& costs) {
   const auto least = leastCosts(costs);
   std::vector<Ranked> all;
   for (const auto& [solver, problems] : costs) {
@@ -65,9 +53,9 @@ std::vector<Ranked> ranking(const Costs& costs) {
   return all;
 }
 
-int solvable(const Costs& costs) { return static_cast<int>(leastCosts(costs).size()); }
+int solvable(const SolverCosts& costs) { return static_cast<int>(leastCosts(costs).size()); }
 
-double ratio(const Costs& costs, const std::string& slow, const std::string& fast) {
+double ratio(const SolverCosts& costs, const std::string& slow, const std::string& fast) {
   GeometricMean mean;
   const auto a = costs.find(slow), b = costs.find(fast);
   if (a == costs.end() || b == costs.end()) return mean.value();
@@ -78,7 +66,7 @@ double ratio(const Costs& costs, const std::string& slow, const std::string& fas
   return 2 * mean.count() < solvable(costs) ? std::numeric_limits<double>::quiet_NaN() : mean.value();
 }
 
-std::map<std::string, int> wins(const Costs& costs) {
+std::map<std::string, int> wins(const SolverCosts& costs) {
   const auto least = leastCosts(costs);
   std::map<std::string, int> count;
   for (const auto& [solver, problems] : costs) {

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace irk::report {
+#include "experiments/analyses/costs/solver_costs.h"
 
-/// Solver -> problem that it was given -> cost > 0; infinity where it does not reach the error.
-using Costs = std::map<std::string, std::map<std::string, double>>;
+namespace irk::report {
 
 struct Ranked {
   std::string solver = {};
@@ -17,17 +16,17 @@ struct Ranked {
 };
 
 /// The solvers that solve something: those that solve the most problems first, among equals the cheapest first.
-std::vector<Ranked> ranking(const Costs& costs);
+std::vector<Ranked> ranking(const SolverCosts& costs);
 
 /// The number of problems that some solver solves.
-int solvable(const Costs& costs);
+int solvable(const SolverCosts& costs);
 
 /// The geometric mean of the cost of `slow` over that of `fast`, of the problems that both solve; NaN if these are
 /// fewer than half of the problems that some solver solves.
-double ratio(const Costs& costs, const std::string& slow, const std::string& fast);
+double ratio(const SolverCosts& costs, const std::string& slow, const std::string& fast);
 
 /// In how many problems each solver is the cheapest, ties counted for all of them.
-std::map<std::string, int> wins(const Costs& costs);
+std::map<std::string, int> wins(const SolverCosts& costs);
 
 /// `1.8 times as fast as x`, where `factor` is the cost of `other` over that of `best`, NaN if too few problems give
 /// one; adds what `other` does not solve of `problems`. Without a name in `other`: that no other solver reaches the

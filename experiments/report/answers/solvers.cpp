@@ -118,7 +118,7 @@ std::string peersOf(const Table& costs) {
 
 Choice choiceOf(const Table& costs, const Table& runs, const std::string& kind, double error) {
   Choice choice{.kind = kind, .error = error};
-  const Costs found = costsOf(costs, "integrator", [&](const TableRow& row) {
+  const SolverCosts found = costsOf(costs, "integrator", [&](const TableRow& row) {
     return isOfKind(costs, row, kind) && std::abs(numberAt(costs, row, "target_error") / error - 1) < 1e-9;
   });
   choice.problems = solvable(found);
@@ -198,17 +198,10 @@ void appendRow(const Choice& c, Answer& answer) {
 
 }  // namespace
 
-Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose) {
-  Costs found;
+SolverCosts costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose) {
+  SolverCosts found;
   for (const auto& row : costs.rows) {
-    if (!isComparable(costs, row) || !choose(row)) continue;
-    const std::string problem =
-        fmt::format("{} {} {} {}", textAt(costs, row, "scene"), textAt(costs, row, "settings"),
-                    costs.hasColumn("t_end") ? textAt(costs, row, "t_end") : "", textAt(costs, row, "target_error"));
-    const double cost = numberAt(costs, row, "cpu_s");
-    const double known = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
-    const auto [at, added] = found[textAt(costs, row, solver)].try_emplace(problem, known);
-    if (!added) at->second = std::min(at->second, known);
+    if (choose(row)) addCost(costs, row, solver, found);
   }
   return found;
 }

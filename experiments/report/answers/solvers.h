@@ -15,10 +15,8 @@ namespace irk::report {
 /// as success with an error in u, v or x above the audit's bar, 1000 tolerance + 1e-9.
 Answer solverAnswer(const claims::ResultTables& tables);
 
-/// The costs of the rows of cpu_at_error.csv that `choose` accepts, by the solver that the column `solver` names. A
-/// problem is a scene with its settings, its end and an error; the cheapest of several rows of a solver counts. Rows
-/// without a reference, or with errors below its accuracy, are left out: they cannot be judged.
-/// So are scenes to which a solver cannot be applied.
-Costs costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose);
+/// The costs (addCost) of the rows of cpu_at_error.csv that `choose` accepts, by the solver that the column `solver`
+/// names.
+SolverCosts costsOf(const Table& costs, std::string_view solver, const std::function<bool(const TableRow&)>& choose);
 
 }  // namespace irk::report

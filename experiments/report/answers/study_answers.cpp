@@ -48,8 +48,8 @@ double targetOf(const Table& costs) {
 std::string sentenceOf(const Comparison& comparison_of, const Table& costs) {
   const double target = targetOf(costs);
   if (target <= 0) return {};
-  const Costs found = costsOf(costs, comparison_of.column,
-                              [&](const TableRow& row) { return numberAt(costs, row, "target_error") == target; });
+  const SolverCosts found = costsOf(
+      costs, comparison_of.column, [&](const TableRow& row) { return numberAt(costs, row, "target_error") == target; });
   const auto ranked = ranking(found);
   if (ranked.size() < 2) return {};
   const int problems = solvable(found);

@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
-#include "irk/collections.h"
 #include "tests/experiments/analyses/analysis_tables.h"
 #include "tests/experiments/study_runs.h"
 
@@ -20,7 +17,6 @@ namespace {
 constexpr char kMixed[] = R"(
 targets = [1e-2, 1e-4, 1e-6, 1e-12]
 ratios = true
-profile = true
 robustness = true
 
 [[block]]
@@ -198,61 +194,6 @@ TEST_F(WholeTables, RatiosAreThoseOfAllPairs) {
   // methods.
   EXPECT_EQ(found.size(), 4u + 4u + 2u);
   EXPECT_EQ(found, plainRatios(runs(), targets()).rows);
-}
-
-// By the definition: for each curve, the times of each solver by problem, in maps.
-TEST_F(WholeTables, ProfilesAreThoseOfMaps) {
-  const Table costs = costTable(runs(), targets());
-  std::map<std::pair<std::string, std::string>, std::map<std::string, std::map<std::string, double>>> curves;
-  for (const auto& row : costs.rows) {
-    const auto& cause = textAt(costs, row, "cause");
-    if (cause == kNoReference || cause == kNotMeasurable || cause == kNotApplicable) continue;
-    if (numberAt(costs, row, "least_tolerance") > numberAt(costs, row, "target_error") * (1 + 1e-9)) continue;
-    auto collections = collectionsOf(textAt(costs, row, "scene"));
-    collections.emplace_back("all");
-    const double cost = numberAt(costs, row, "cpu_s");
-    const double time = std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
-    const auto& target = textAt(costs, row, "target_error");
-    const auto problem = textAt(costs, row, "scene") + " " + textAt(costs, row, "settings");
-    for (const auto& collection : collections) {
-      for (const std::string& curve : {target, std::string("all")}) {
-        auto& least = curves[{collection, curve}][textAt(costs, row, "integrator")];
-        const auto [at, added] = least.try_emplace(curve == "all" ? problem + target : problem, time);
-        at->second = std::min(at->second, time);
-      }
-    }
-  }
-  std::vector<TableRow> expected;
-  for (const auto& [curve, solvers] : curves) {
-    std::map<std::string, double> best;
-    for (const auto& [solver, times] : solvers) {
-      for (const auto& [problem, time] : times) {
-        if (std::isinf(time)) continue;
-        best[problem] = best.contains(problem) ? std::min(best[problem], time) : time;
-      }
-    }
-    for (const auto& [solver, times] : solvers) {
-      std::vector<double> ratios;
-      std::size_t given = 0;
-      for (const auto& [problem, time] : times) {
-        given += best.contains(problem);
-        if (std::isfinite(time)) ratios.push_back(time / best[problem]);
-      }
-      if (given == 0) continue;
-      std::sort(ratios.begin(), ratios.end());
-      // Clang 14 captures no structured binding by itself.
-      const auto add = [&, &curve = curve, &solver = solver](double ratio, std::size_t count) {
-        expected.push_back({curve.first, curve.second, solver, numberText(ratio),
-                            numberText(static_cast<double>(count) / static_cast<double>(given)), std::to_string(given),
-                            std::to_string(best.size())});
-      };
-      if (ratios.empty()) add(1, 0);
-      for (std::size_t i = 0; i < ratios.size(); ++i) add(ratios[i], i + 1);
-      add(1e6, ratios.size());
-    }
-  }
-  EXPECT_GT(expected.size(), 20u);
-  EXPECT_EQ(profileTable(costs).rows, expected);
 }
 
 }  // namespace

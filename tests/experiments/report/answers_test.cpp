@@ -17,7 +17,7 @@ const double kNever = std::numeric_limits<double>::infinity();
 const double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
-  const Costs costs{{"sure", {{"p1", 4}, {"p2", 4}}},
+  const SolverCosts costs{{"sure", {{"p1", 4}, {"p2", 4}}},
                     {"fast", {{"p1", 1}, {"p2", kNever}}},
                     {"slow", {{"p1", 8}, {"p2", 8}}},
                     {"never", {{"p1", kNever}}}};
@@ -42,7 +42,7 @@ TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
 
 // A problem that nobody solves counts for nobody.
 TEST(Ranking, LeavesOutWhatNobodySolves) {
-  const Costs costs{{"a", {{"p1", 1}, {"hard", kNever}}}, {"b", {{"p1", 2}, {"hard", kNever}}}};
+  const SolverCosts costs{{"a", {{"p1", 1}, {"hard", kNever}}}, {"b", {{"p1", 2}, {"hard", kNever}}}};
   EXPECT_EQ(solvable(costs), 1);
   EXPECT_EQ(ranking(costs)[0].given, 1);
   EXPECT_TRUE(ranking({{"a", {{"hard", kNever}}}}).empty());
