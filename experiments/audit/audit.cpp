@@ -15,6 +15,7 @@
 #include "experiments/runs/final_states.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/run_command.h"
 #include "experiments/tables/grouped_file.h"
 #include "irk/collections.h"
 
@@ -168,7 +169,7 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
           known.remark,
           text("cpu_s"),
           text("cpu_error_bar_s"),
-          commandOf(drawn)};
+          seriesCommand(runs, row).text + sweptOptions(runs, row)};
 }
 
 std::optional<TableRow> rowWith(const std::string& key, const GroupedFile& table) {

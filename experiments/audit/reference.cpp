@@ -14,7 +14,7 @@
 #include "experiments/runs/error_bar.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/final_states.h"
-#include "experiments/study/dice.h"
+#include "experiments/study/drawn/dice.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
 

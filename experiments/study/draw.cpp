@@ -13,7 +13,7 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/run.h"
-#include "experiments/study/dice.h"
+#include "experiments/study/drawn/dice.h"
 #include "experiments/study/drawn/options.h"
 #include "irk/misuse.h"
 #include "irk/tableaus.h"

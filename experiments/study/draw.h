@@ -54,7 +54,4 @@ class Draw {
 /// can be made are drawn again.
 Settings drawnSettings(const SceneEntry& scene, std::uint64_t seed, Index variant, Discontinuity treatment);
 
-/// The command `irk solve ...` that repeats the run.
-std::string commandOf(const DrawnRun& run);
-
 }  // namespace irk::audit

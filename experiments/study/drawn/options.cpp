@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
@@ -29,8 +30,6 @@ constexpr Values kValues[] = {{"mixed", "absolute"},
 static_assert(std::size(kNames) == std::size(kValues));
 
 }  // namespace
-
-std::span<const std::string_view> drawnOptionNames() { return kNames; }
 
 void drawOptions(Dice& dice, RunSpec& spec, const std::function<bool(const RunSpec&)>& isLegal) {
   for (std::size_t i = 0; i < std::size(kNames); ++i) {

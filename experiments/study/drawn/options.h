@@ -2,16 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <span>
-#include <string_view>
 
 #include "experiments/runs/run_spec.h"
-#include "experiments/study/dice.h"
+#include "experiments/study/drawn/dice.h"
 
 namespace irk::audit {
-
-/// The fields of a spec that drawOptions may change, in the order of the draw.
-std::span<const std::string_view> drawnOptionNames();
 
 /// Draws norm, estimate, control, Newton's method, predictor and multipliers; most of the time each keeps the value of
 /// the configuration. So does an option that `isLegal` refuses for the spec that has it.

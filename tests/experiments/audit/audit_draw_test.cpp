@@ -8,9 +8,9 @@
 #include "experiments/runs/configurations.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
-#include "experiments/study/dice.h"
 #include "experiments/study/draw.h"
-#include "experiments/study/drawn/options.h"
+#include "experiments/study/drawn/dice.h"
+#include "experiments/study/run_command.h"
 #include "irk/tableaus.h"
 #include "tests/experiments/audit/audited.h"
 #include "tests/experiments/study_runs.h"
@@ -106,6 +106,10 @@ TEST(AuditDraw, ReachesEveryScenesAxisAndTolerance) {
   EXPECT_GT(with_settings, 700);  // half of the runs, for scenes with parameters
 }
 
+// How many values of an option are drawn.
+const std::map<std::string_view, std::size_t> kDrawnValues{{"norm", 2},   {"estimate", 4},  {"control", 3},
+                                                           {"newton", 4}, {"predictor", 3}, {"multipliers", 2}};
+
 TEST(AuditDraw, ReachesOptionsEndsAndOtherLibraries) {
   std::set<std::string> methods;
   std::map<std::string_view, std::set<std::string>> options;
@@ -115,7 +119,7 @@ TEST(AuditDraw, ReachesOptionsEndsAndOtherLibraries) {
     const auto& [rtol, atol] = std::pair(spec.options.tolerances.rtol, spec.options.tolerances.atol);
     EXPECT_LE(std::max(rtol, atol) / std::min(rtol, atol), 1000 * (1 + 1e-15));
     two_tolerances += rtol != atol;
-    for (const auto name : drawnOptionNames()) options[name].insert(findField(name).get(spec));
+    for (const auto& [name, values] : kDrawnValues) options[name].insert(findField(name).get(spec));
     const double own_end = makeScene<double>(spec.scene, spec.settings).t_end;
     EXPECT_GE(spec.t_end, 0.199 * own_end);
     EXPECT_LE(spec.t_end, 2.01 * own_end);
@@ -126,14 +130,7 @@ TEST(AuditDraw, ReachesOptionsEndsAndOtherLibraries) {
     by_peers += by_peer;
     EXPECT_EQ(spec.error_bar == ErrorBarUse::kNone, by_peer);
   }
-  for (const auto& [name, least] : {std::pair("norm", 2u),
-                                    {"estimate", 4u},
-                                    {"control", 3u},
-                                    {"newton", 4u},
-                                    {"predictor", 3u},
-                                    {"multipliers", 2u}}) {
-    EXPECT_EQ(options[name].size(), least) << name;
-  }
+  for (const auto& [name, values] : kDrawnValues) EXPECT_EQ(options[name].size(), values) << name;
   EXPECT_GT(two_tolerances, 500);  // 0.3 of the runs, but for those at the ends of the range
   EXPECT_GT(other_ends, 500);      // a quarter; more of the foreign scenes
   EXPECT_GT(on_the_way, 200);
@@ -151,7 +148,7 @@ TEST(AuditDraw, LeavesOutCoupledMatricesThatOutlastEveryTimeLimit) {
     const Index unknowns = makeScene<double>("medakzo", run.spec.settings).sizes().n();
     if (run.spec.configuration == "paper") {
       ++coupled;
-      EXPECT_LE(tableau.stages() * unknowns, 3000) << commandOf(run);
+      EXPECT_LE(tableau.stages() * unknowns, 3000) << canonicalText(run.spec);
     } else {
       many_stages += tableau.stages() * unknowns > 3000;
     }
@@ -179,7 +176,10 @@ TEST(AuditDraw, CommandsRepeatTheRuns) {
   auto runs = drawnRuns({.runs = 300});
   runs[0].spec.t_end *= 0.3;
   for (const auto& run : runs) {
-    const std::string command = commandOf(run);
+    RunRecord record;
+    record.spec = run.spec;
+    const Table made{{}, runColumns(), {runRow("key", "audit", record)}};
+    const std::string command = seriesCommand(made, made.rows[0]).text + sweptOptions(made, made.rows[0]);
     EXPECT_EQ(specKey(solveSpec(parsed(command))), specKey(run.spec)) << command;
   }
 }

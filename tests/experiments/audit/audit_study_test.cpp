@@ -163,11 +163,11 @@ TEST_F(SmallAudit, FindsADamagedResult) {
     // An error of several bars is detected only if the bar is below 1.
     const bool sharp = numberAt(table, table.rows[i], "tolerance") <= 1e-4;
     if (!sharp || textAt(table, table.rows[i], "judgement") != "right") continue;
-    EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << commandOf(drawn[i]);
+    EXPECT_EQ(textAt(damaged, damaged.rows[i], "judgement"), "wrong") << table.rows[i].back();
     ++checked;
     // 3000 tolerances are beyond three error bars of at most 100.
     if (!(numberAt(table, table.rows[i], "error_bar_tolerances") < 100)) continue;
-    EXPECT_GT(numberAt(damaged, damaged.rows[i], "part_of_cover"), 1) << commandOf(drawn[i]);
+    EXPECT_GT(numberAt(damaged, damaged.rows[i], "part_of_cover"), 1) << table.rows[i].back();
     covered += numberAt(table, table.rows[i], "part_of_cover") <= 1;
   }
   EXPECT_GT(checked, 15);

@@ -7,10 +7,10 @@
 
 #include "experiments/report/explorer/explorer.h"
 #include "experiments/report/explorer/explorer_data.h"
-#include "experiments/report/explorer/run_command.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
+#include "experiments/study/run_command.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/study_runs.h"
 

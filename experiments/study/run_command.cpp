@@ -1,5 +1,4 @@
-#include "experiments/report/explorer/run_command.h"
-#include "experiments/base/child_process.h"
+#include "experiments/study/run_command.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "experiments/base/child_process.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/own_files.h"

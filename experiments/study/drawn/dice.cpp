@@ -1,4 +1,4 @@
-#include "experiments/study/dice.h"
+#include "experiments/study/drawn/dice.h"
 
 #include <numeric>
 
