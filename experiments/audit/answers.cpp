@@ -23,7 +23,7 @@ std::string versionText() { return fmt::format("{} {}", buildInfo().version, bui
 
 // The stored rows that this version of the program has written.
 Table foundAnswers(const std::filesystem::path& file, int jobs) {
-  Table table{environmentHead("references of the audit", jobs), answerColumns(), {}};
+  Table table{environmentHead("references of the audit", jobs), columnsOf(answerCells({}, {})), {}};
   if (!std::filesystem::exists(file)) return table;
   const Table found = readTable(file);
   if (found.columns != table.columns) return table;
@@ -35,24 +35,19 @@ Table foundAnswers(const std::filesystem::path& file, int jobs) {
 
 }  // namespace
 
-std::vector<std::string> answerColumns() {
-  return {"scene",    "settings", "t_end", "smooth", "version", "source",
-          "accuracy", "kappa",    "cpu_s", "remark", "state",   "other"};
-}
-
-TableRow answerRow(const Question& question, const Answer& answer) {
-  return {question.scene,
-          question.settings,
-          numberText(question.t_end),
-          question.smooth ? "1" : "0",
-          versionText(),
-          answer.source,
-          numberText(answer.accuracy),
-          numberText(answer.kappa),
-          numberText(answer.cpu_s),
-          answer.remark,
-          vectorText(answer.state),
-          vectorText(answer.other)};
+NamedCells answerCells(const Question& question, const Answer& answer) {
+  return {{"scene", question.scene},
+          {"settings", question.settings},
+          {"t_end", numberText(question.t_end)},
+          {"smooth", question.smooth ? "1" : "0"},
+          {"version", versionText()},
+          {"source", answer.source},
+          {"accuracy", numberText(answer.accuracy)},
+          {"kappa", numberText(answer.kappa)},
+          {"cpu_s", numberText(answer.cpu_s)},
+          {"remark", answer.remark},
+          {"state", vectorText(answer.state)},
+          {"other", vectorText(answer.other)}};
 }
 
 std::pair<Question, Answer> parseAnswer(const Table& table, const TableRow& row) {
@@ -89,7 +84,7 @@ Answers answersTo(const std::set<Question>& questions, const std::filesystem::pa
       const Answer answer = answerOf(open[i], &interruptFlag());
       if (answer.source == kInterruptedSource) return;
       const std::lock_guard lock(mutex);
-      writer.append(answerRow(open[i], answer));
+      writer.append(rowOf(answerCells(open[i], answer)));
       answers[open[i]] = answer;
       progress->finished(open[i].scene, wallSeconds() - start);
     });

@@ -7,15 +7,14 @@
 #include <set>
 
 #include "experiments/audit/reference.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/named_cells.h"
 
 namespace irk::audit {
 
 using Answers = std::map<Question, Answer>;
 
-std::vector<std::string> answerColumns();
-TableRow answerRow(const Question& question, const Answer& answer);
-/// Parses a row made by answerRow.
+NamedCells answerCells(const Question& question, const Answer& answer);
+/// Parses a row of these cells.
 std::pair<Question, Answer> parseAnswer(const Table& table, const TableRow& row);
 
 /// The answers to all questions. Uses the answers in `file` that this version of the program has written, computes

@@ -17,50 +17,13 @@
 #include "experiments/runs/run_table.h"
 #include "experiments/study/run_command.h"
 #include "experiments/tables/grouped_file.h"
+#include "experiments/tables/named_cells.h"
 #include "irk/collections.h"
 
 namespace irk::audit {
 namespace {
 
 constexpr double kNotJudged = std::numeric_limits<double>::quiet_NaN();
-
-const std::vector<std::string> kColumns{"run",
-                                        "key",
-                                        "scene",
-                                        "collection",
-                                        "settings",
-                                        "t_end",
-                                        "method",
-                                        "family",
-                                        "stages",
-                                        "integrator",
-                                        "configuration",
-                                        "formulation",
-                                        "treatment",
-                                        "discontinuity",
-                                        "tolerance",
-                                        "rtol",
-                                        "atol",
-                                        "outcome",
-                                        "detail",
-                                        "judgement",
-                                        "error",
-                                        "error_over_tolerance",
-                                        "error_in_tolerances",
-                                        "error_z",
-                                        "error_way",
-                                        "error_bar",
-                                        "error_bar_z",
-                                        "error_bar_tolerances",
-                                        "part_of_cover",
-                                        "reference",
-                                        "accuracy",
-                                        "kappa",
-                                        "accumulated",
-                                        "remark",
-                                        "cpu_s",
-                                        "cpu_error_bar_s",
-                                        "command"};
 
 // The final state of a run and its error bars; empty vectors: not kept.
 struct Result {
@@ -123,8 +86,8 @@ double errorOnTheWay(const RunSpec& spec, const Table& runs, const TableRow& row
   return largest;
 }
 
-TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, const TableRow& row,
-                  const Result& result, const Answer& known) {
+NamedCells auditCells(std::size_t number, const DrawnRun& drawn, const Table& runs, const TableRow& row,
+                      const Result& result, const Answer& known) {
   const RunSpec& spec = drawn.spec;
   const auto text = [&](std::string_view column) { return textAt(runs, row, column); };
   StateErrors errors;
@@ -133,43 +96,43 @@ TableRow auditRow(std::size_t number, const DrawnRun& drawn, const Table& runs, 
   const double tolerance = isAbsolute(spec) ? tolerances.atol : std::max(tolerances.rtol, tolerances.atol);
   const Judgement judgement = judge({succeededAt(runs, row), tolerance, errors.judged, known.accuracy, known.kappa});
   const auto collections = collectionsOf(spec.scene);
-  return {std::to_string(number),
-          row.front(),
-          spec.scene,
-          collections.empty() ? "" : collections.front(),
-          settingsText(spec.settings),
-          numberText(spec.t_end),
-          spec.method,
-          text("family"),
-          text("stages"),
-          findPeer(spec.method) ? spec.method : spec.configuration,
-          spec.configuration,
-          std::string(idOf(spec.formulation)),
-          drawn.treatment,
-          std::string(idOf(spec.discontinuity)),
-          numberText(tolerance),
-          numberText(tolerances.rtol),
-          numberText(tolerances.atol),
-          text("outcome"),
-          text("detail"),
-          std::string(nameOf(judgement)),
-          numberText(errors.judged),
-          numberText(errors.judged / tolerance),
-          numberText(errors.in_tolerances),
-          numberText(errors.multipliers),
-          numberText(errorOnTheWay(spec, runs, row)),
-          numberText(errors.bar),
-          numberText(errors.bar_of_multipliers),
-          text("error_bar_tolerances"),
-          numberText(errors.part_of_cover),
-          known.source,
-          numberText(known.accuracy),
-          numberText(known.kappa),
-          numberText(accumulated(numberAt(runs, row, "steps_accepted"), known.kappa, tolerance)),
-          known.remark,
-          text("cpu_s"),
-          text("cpu_error_bar_s"),
-          seriesCommand(runs, row).text + sweptOptions(runs, row)};
+  return {{"run", std::to_string(number)},
+          {"key", row.front()},
+          {"scene", spec.scene},
+          {"collection", collections.empty() ? "" : collections.front()},
+          {"settings", settingsText(spec.settings)},
+          {"t_end", numberText(spec.t_end)},
+          {"method", spec.method},
+          {"family", text("family")},
+          {"stages", text("stages")},
+          {"integrator", findPeer(spec.method) ? spec.method : spec.configuration},
+          {"configuration", spec.configuration},
+          {"formulation", std::string(idOf(spec.formulation))},
+          {"treatment", drawn.treatment},
+          {"discontinuity", std::string(idOf(spec.discontinuity))},
+          {"tolerance", numberText(tolerance)},
+          {"rtol", numberText(tolerances.rtol)},
+          {"atol", numberText(tolerances.atol)},
+          {"outcome", text("outcome")},
+          {"detail", text("detail")},
+          {"judgement", std::string(nameOf(judgement))},
+          {"error", numberText(errors.judged)},
+          {"error_over_tolerance", numberText(errors.judged / tolerance)},
+          {"error_in_tolerances", numberText(errors.in_tolerances)},
+          {"error_z", numberText(errors.multipliers)},
+          {"error_way", numberText(errorOnTheWay(spec, runs, row))},
+          {"error_bar", numberText(errors.bar)},
+          {"error_bar_z", numberText(errors.bar_of_multipliers)},
+          {"error_bar_tolerances", text("error_bar_tolerances")},
+          {"part_of_cover", numberText(errors.part_of_cover)},
+          {"reference", known.source},
+          {"accuracy", numberText(known.accuracy)},
+          {"kappa", numberText(known.kappa)},
+          {"accumulated", numberText(accumulated(numberAt(runs, row, "steps_accepted"), known.kappa, tolerance))},
+          {"remark", known.remark},
+          {"cpu_s", text("cpu_s")},
+          {"cpu_error_bar_s", text("cpu_error_bar_s")},
+          {"command", seriesCommand(runs, row).text + sweptOptions(runs, row)}};
 }
 
 std::optional<TableRow> rowWith(const std::string& key, const GroupedFile& table) {
@@ -190,17 +153,17 @@ Result resultIn(const Table& states, const std::optional<TableRow>& row) {
 void writeAudit(const Draw& draw, const std::filesystem::path& runs, const std::filesystem::path& states,
                 const Answers& answers, const std::filesystem::path& file) {
   const GroupedFile made(runs, {"key"}), ends(states, {"key"});
-  TableWriter table(file, made.names().head, kColumns);
+  Table table{made.names().head, {}, {}};
   for (std::size_t i = 0; i < draw.size(); ++i) {
     const DrawnRun drawn = draw[i];
     const auto key = specKey(drawn.spec);
     const auto row = rowWith(key, made);
     if (!row) continue;  // not run because of an interrupt
     const auto answer = answers.find(questionOf(drawn.spec));
-    table.add(auditRow(i, drawn, made.names(), *row, resultIn(ends.names(), rowWith(key, ends)),
-                       answer == answers.end() ? Answer{} : answer->second));
+    addRow(table, auditCells(i, drawn, made.names(), *row, resultIn(ends.names(), rowWith(key, ends)),
+                             answer == answers.end() ? Answer{} : answer->second));
   }
-  table.close();
+  writeTable(file, table);
 }
 
 std::string auditRuns(const Study& study, const std::filesystem::path& folder, int jobs, std::ostream& progress) {

@@ -13,6 +13,7 @@
 #include "experiments/audit/thresholds.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/tables/named_cells.h"
 #include "experiments/tables/table_rows.h"
 
 namespace irk::audit {
@@ -81,27 +82,27 @@ double quantile(std::vector<double> values, double part) {
 
 double share(int part, std::size_t all) { return all == 0 ? kUnknown : part / static_cast<double>(all); }
 
-TableRow barRow(const std::string& by, const std::string& group, const Bars& b) {
+NamedCells barCells(const std::string& by, const std::string& group, const Bars& b) {
   const auto sharp = std::count_if(b.sharpness.begin(), b.sharpness.end(),
                                    [](double ratio) { return ratio >= kSharpFrom && ratio <= kSharpTo; });
   const auto text = [](double value) { return fmt::format("{:.4g}", value); };
-  return {by,
-          group,
-          std::to_string(b.successes),
-          std::to_string(b.unknown),
-          std::to_string(b.judged),
-          std::to_string(b.covered),
-          text(share(b.covered, static_cast<std::size_t>(b.judged))),
-          std::to_string(b.sharpness.size()),
-          text(quantile(b.sharpness, 0.1)),
-          text(quantile(b.sharpness, 0.5)),
-          text(quantile(b.sharpness, 0.9)),
-          text(share(static_cast<int>(sharp), b.sharpness.size())),
-          std::to_string(b.near),
-          std::to_string(b.false_alarms),
-          text(share(b.false_alarms, static_cast<std::size_t>(b.near))),
-          std::to_string(b.costs.size()),
-          text(quantile(b.costs, 0.5))};
+  return {{"by", by},
+          {"group", group},
+          {"successes", std::to_string(b.successes)},
+          {"unknown", std::to_string(b.unknown)},
+          {"judged", std::to_string(b.judged)},
+          {"covered", std::to_string(b.covered)},
+          {"coverage", text(share(b.covered, static_cast<std::size_t>(b.judged)))},
+          {"sharp_runs", std::to_string(b.sharpness.size())},
+          {"sharp_10", text(quantile(b.sharpness, 0.1))},
+          {"sharp_median", text(quantile(b.sharpness, 0.5))},
+          {"sharp_90", text(quantile(b.sharpness, 0.9))},
+          {"sharp_share", text(share(static_cast<int>(sharp), b.sharpness.size()))},
+          {"near_runs", std::to_string(b.near)},
+          {"false_alarms", std::to_string(b.false_alarms)},
+          {"false_share", text(share(b.false_alarms, static_cast<std::size_t>(b.near)))},
+          {"cost_runs", std::to_string(b.costs.size())},
+          {"cost_median", text(quantile(b.costs, 0.5))}};
 }
 
 struct Words {
@@ -128,23 +129,6 @@ void add(Groups<Group>& groups, std::size_t kind, const std::string& group, cons
   groups[kind].second[group].add(run);
 }
 
-// Lines of a table: rows whose `by` is in `kinds`, with the columns that have a title.
-std::string linesOf(const Table& table, const std::vector<std::string>& kinds,
-                    const std::vector<std::pair<std::string, std::string>>& titles) {
-  std::string text = fmt::format("  {:<36}", "");
-  for (const auto& [column, title] : titles) text += fmt::format("{:>15}", title);
-  text += '\n';
-  for (const auto& kind : kinds) {
-    for (const auto& row : table.rows) {
-      if (row[0] != kind) continue;
-      text += fmt::format("  {:<36}", kind == "all" ? row[1] : kind + " " + row[1]);
-      for (const auto& [column, title] : titles) text += fmt::format("{:>15}", textAt(table, row, column));
-      text += '\n';
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 Table errorBarTable(const std::filesystem::path& audit) {
@@ -158,13 +142,9 @@ Table errorBarTable(const std::filesystem::path& audit) {
       add(groups, kind, textAt(t, row, groups[kind].first), run);
     }
   });
-  Table table{
-      names.head,
-      {"by", "group", "successes", "unknown", "judged", "covered", "coverage", "sharp_runs", "sharp_10", "sharp_median",
-       "sharp_90", "sharp_share", "near_runs", "false_alarms", "false_share", "cost_runs", "cost_median"},
-      {}};
+  Table table{names.head, {}, {}};
   for (const auto& [by, all] : groups) {
-    for (const auto& [group, bars] : all) table.rows.push_back(barRow(by, group, bars));
+    for (const auto& [group, bars] : all) addRow(table, barCells(by, group, bars));
   }
   return table;
 }
@@ -179,31 +159,50 @@ Table ownWordTable(const std::filesystem::path& audit) {
     by_collection[textAt(t, row, "collection")][integrator].add(run);
   });
   groups.insert(groups.end(), by_collection.begin(), by_collection.end());
-  Table table{names.head, {"by", "group", "runs", "successes", "judged", "above_100", "above_1000"}, {}};
+  Table table{names.head, {}, {}};
   for (const auto& [by, all] : groups) {
     for (const auto& [group, words] : all) {
-      table.rows.push_back({by, group, std::to_string(words.runs), std::to_string(words.successes),
-                            std::to_string(words.judged), std::to_string(words.above_100),
-                            std::to_string(words.above_1000)});
+      addRow(table, {{"by", by},
+                     {"group", group},
+                     {"runs", std::to_string(words.runs)},
+                     {"successes", std::to_string(words.successes)},
+                     {"judged", std::to_string(words.judged)},
+                     {"above_100", std::to_string(words.above_100)},
+                     {"above_1000", std::to_string(words.above_1000)}});
     }
   }
   return table;
 }
 
+std::string linesOf(const Table& table, const std::string& head, const std::vector<std::string>& kinds,
+                    const Titles& titles) {
+  std::string text = fmt::format("{:<42}", head);
+  for (const auto& [column, title] : titles) text += fmt::format("{:>16}", title);
+  text += '\n';
+  for (const auto& kind : kinds) {
+    for (const auto& row : table.rows) {
+      if (row[0] != kind) continue;
+      text += fmt::format("  {:<40}", kinds.size() == 1 || kind == "all" ? row[1] : kind + " " + row[1]);
+      for (const auto& [column, title] : titles) text += fmt::format("{:>16}", textAt(table, row, column));
+      text += '\n';
+    }
+  }
+  return text;
+}
+
 std::string errorBarText(const Table& bars) {
-  std::string text = "the error bar\n";
-  text += linesOf(bars, {"all", "configuration", "collection"},
-                  {{"successes", "successes"},
-                   {"unknown", "bar unknown"},
-                   {"judged", "judged"},
-                   {"coverage", "coverage"},
-                   {"sharp_median", "bar / error"},
-                   {"sharp_10", "10 %"},
-                   {"sharp_90", "90 %"},
-                   {"sharp_share", "in .1 to 10"},
-                   {"false_alarms", "false alarms"},
-                   {"near_runs", "of"},
-                   {"cost_median", "second / first"}});
+  const std::string text = linesOf(bars, "the error bar", {"all", "configuration", "collection"},
+                                   {{"successes", "successes"},
+                                    {"unknown", "bar unknown"},
+                                    {"judged", "judged"},
+                                    {"coverage", "coverage"},
+                                    {"sharp_median", "bar / error"},
+                                    {"sharp_10", "10 %"},
+                                    {"sharp_90", "90 %"},
+                                    {"sharp_share", "in .1 to 10"},
+                                    {"false_alarms", "false alarms"},
+                                    {"near_runs", "of"},
+                                    {"cost_median", "second / first"}});
   return text +
          fmt::format(
              "asked: coverage >= {}, median of bar / error {} to {}, in {} to {} >= {}, false alarms <= {}, cost "
@@ -218,7 +217,7 @@ std::string ownWordText(const Table& words) {
     if (kinds.empty() || kinds.back() != row[0]) kinds.push_back(row[0]);
   }
   return "the solver's own word, without error bar: errors above 100 and 1000 tolerances as success\n" +
-         linesOf(words, kinds,
+         linesOf(words, "", kinds,
                  {{"runs", "runs"},
                   {"successes", "successes"},
                   {"judged", "judged"},

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/tables/table.h"
 
@@ -25,6 +27,11 @@ Table errorBarTable(const std::filesystem::path& audit);
 /// so many tolerances and 1e-9, as in the audit's bar.
 Table ownWordTable(const std::filesystem::path& audit);
 
+/// Columns of a table, with what stands above them in lines for the terminal.
+using Titles = std::vector<std::pair<std::string, std::string>>;
+/// The rows whose column `by`, the first one, is in `kinds`, below a line with `head` and the titles.
+std::string linesOf(const Table& table, const std::string& head, const std::vector<std::string>& kinds,
+                    const Titles& titles);
 /// Lines for the terminal: all runs, configurations, collections, and what is asked.
 std::string errorBarText(const Table& bars);
 std::string ownWordText(const Table& words);

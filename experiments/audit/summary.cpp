@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/audit/audit.h"
+#include "experiments/audit/bar_tables.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/tables/table_rows.h"
@@ -141,22 +142,11 @@ Table summaryTable(const std::filesystem::path& file) {
 }
 
 std::string summaryText(const std::filesystem::path& audit, const Table& summary, std::size_t worst) {
-  std::string text;
-  const auto print = [&](std::string_view by, std::string_view title) {
-    text += fmt::format("{:<42}{:>7}", title, "runs");
-    for (const auto name : judgementNames()) text += fmt::format("{:>16}", name);
-    for (const auto* name : kBeside) text += fmt::format("{:>16}", name);
-    text += '\n';
-    for (const auto& row : summary.rows) {
-      if (row[0] != by) continue;
-      text += fmt::format("  {:<40}{:>7}", row[1], row[2]);
-      for (std::size_t i = 3; i < row.size(); ++i) text += fmt::format("{:>16}", row[i]);
-      text += '\n';
-    }
-  };
-  print("configuration", "by configuration");
-  print("bar", "the same, switches by default or located");
-  print("other_library", "other libraries");
+  Titles titles;
+  for (std::size_t i = 2; i < summary.columns.size(); ++i) titles.emplace_back(summary.columns[i], summary.columns[i]);
+  std::string text = linesOf(summary, "by configuration", {"configuration"}, titles) +
+                     linesOf(summary, "the same, switches by default or located", {"bar"}, titles) +
+                     linesOf(summary, "other libraries", {"other_library"}, titles);
   const auto wrong = wrongOnes(audit, worst);
   if (wrong.count > 0) {
     text += fmt::format(

@@ -3,42 +3,40 @@
 #include <fmt/format.h>
 
 #include "experiments/claims/claims_text.h"
+#include "experiments/tables/named_cells.h"
 
 namespace irk::report {
 namespace {
 
-TableRow claimRow(const claims::Claim& claim, const claims::Part& part, claims::Setting setting,
-                  const claims::Judgement& judged) {
+NamedCells claimCells(const claims::Claim& claim, const claims::Part& part, claims::Setting setting,
+                      const claims::Judgement& judged) {
   const auto number = [](double x) { return fmt::format("{:.4g}", x); };
-  return {claim.id,
-          part.id,
-          std::string(claims::settingName(setting)),
-          claim.title,
-          part.name,
-          part.measured,
-          claims::conditionText(part),
-          std::string(verdictText(judged.verdict)),
-          number(judged.value),
-          number(judged.low),
-          number(judged.high),
-          part.unit,
-          fmt::format("{}", judged.cases),
-          fmt::format("{}", judged.scenes.size()),
-          judged.reason};
+  return {{"claim", claim.id},
+          {"part", part.id},
+          {"setting", std::string(claims::settingName(setting))},
+          {"title", claim.title},
+          {"name", part.name},
+          {"measured", part.measured},
+          {"condition", claims::conditionText(part)},
+          {"verdict", std::string(verdictText(judged.verdict))},
+          {"value", number(judged.value)},
+          {"low", number(judged.low)},
+          {"high", number(judged.high)},
+          {"unit", part.unit},
+          {"cases", fmt::format("{}", judged.cases)},
+          {"scenes", fmt::format("{}", judged.scenes.size())},
+          {"reason", judged.reason}};
 }
 
 }  // namespace
 
 Table claimsTable(const std::vector<claims::ClaimFindings>& findings) {
-  Table table{{},
-              {"claim", "part", "setting", "title", "name", "measured", "condition", "verdict", "value", "low", "high",
-               "unit", "cases", "scenes", "reason"},
-              {}};
+  Table table;
   for (const auto& claim : findings) {
     for (std::size_t i = 0; i < claim.parts.size(); ++i) {
       for (const claims::Setting setting : claims::kSettings) {
         const auto& judged = claim.parts[i][static_cast<std::size_t>(setting)].judged;
-        table.rows.push_back(claimRow(*claim.claim, claim.claim->parts[i], setting, judged));
+        addRow(table, claimCells(*claim.claim, claim.claim->parts[i], setting, judged));
       }
     }
   }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <csignal>
@@ -224,7 +225,8 @@ TEST(AuditCoverage, AllowsThreeBarsAndTolerances) {
 TEST(AuditReference, IsReadAsWritten) {
   const Question question{"pendulum", "g=5", 10, false};
   const Answer known = answer("slider_crank", "torque_off_at=0.6");
-  const Table table{{}, answerColumns(), {answerRow(question, known)}};
+  Table table;
+  addRow(table, answerCells(question, known));
   const auto [same_question, same] = parseAnswer(table, table.rows.front());
   EXPECT_EQ(same_question, question);
   EXPECT_EQ(same.state, known.state);
@@ -305,6 +307,7 @@ TEST(AuditSummary, CountsAndSortsByExcess) {
   const std::string text = textOf(2);
   ASSERT_NE(text.find("five times"), text.npos);
   EXPECT_NE(text.find("1 of 2 wrong successes are off by more"), text.npos) << text;
+  EXPECT_NE(text.find(fmt::format("  {:<40}{:>16}{:>16}{:>16}{:>16}", "default", 3, 1, 0, 2)), text.npos) << text;
   EXPECT_LT(text.find("nine times the bar"), text.find("five times"));
   EXPECT_EQ(textOf(1).find("five times"), std::string::npos);
 }
