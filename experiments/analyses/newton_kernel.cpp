@@ -1,7 +1,6 @@
 #include "experiments/analyses/newton_kernel.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/stages/scheme.h"
 #include "experiments/runs/setup.h"
@@ -35,18 +34,6 @@ constexpr int kMaxTrials = 20;
 constexpr double kGoodError = 0.3;
 // A limit that no contraction exceeds.
 constexpr double kAlways = 1e300;
-
-// The arithmetic of simplified Newton's convergence test (core/newton/simplified_newton.cpp): the contraction, the
-// error that the remaining iterations can reach, and whether the increment is small enough.
-double newtonTest(double norm) {
-  constexpr int kIterationsLeft = 23;
-  const double theta = norm / (norm + 1), eta = theta / (1 - theta);
-  double reached = eta * norm, square = theta;
-  for (int n = kIterationsLeft; n > 0; n /= 2, square *= square) {
-    if (n % 2 == 1) reached *= square;
-  }
-  return std::isfinite(norm) && reached < 1 ? eta * norm : norm;
-}
 
 bool doublesSteps(ErrorEstimate estimate) {
   return estimate != ErrorEstimate::kEmbedded && estimate != ErrorEstimate::kNone;
@@ -180,7 +167,7 @@ void NewtonKernel::update() {
 
 void NewtonKernel::moveBy(const Mat<double>& increment) {
   W_ -= increment;
-  decided_ = newtonTest(norm_.increment(increment, scheme_.first, row_weights_));
+  decided_ = norm_.increment(increment, scheme_.first, row_weights_);
 }
 
 std::optional<Counters> NewtonKernel::attempts() {

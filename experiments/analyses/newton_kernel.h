@@ -39,8 +39,8 @@ class NewtonKernel {
   /// the one before. It takes longer than the sum of its parts timed alone, because there the processor begins a call
   /// before the last one has ended.
   void iteration();
-  /// The rest of an iteration: the stages' u, v, x, row scaling, the increment, its norm, and the arithmetic of
-  /// Newton's test.
+  /// The rest of an iteration: the stages' u, v, x, row scaling, the increment and its norm. The few operations of
+  /// Newton's test are left out: they are part of `attempts`.
   void update();
   /// Two attempted steps in a row, always the same ones, with the integrator's own error estimate and all other parts
   /// of a step but the step control and new Jacobians. Returns their counts. Steps that fail are halved; nothing is
