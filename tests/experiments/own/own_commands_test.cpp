@@ -1,6 +1,6 @@
 // Commands that the program prints for runs of a user's files: pasted into a shell, they make the same run.
-#include "experiments/study/run_command.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/study/run_command.h"
 #include "tests/experiments/own/own_files.h"
 
 namespace irk {

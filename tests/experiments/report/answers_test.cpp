@@ -18,9 +18,9 @@ const double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Ranking, PrefersWhoSolvesMoreThenWhoIsFaster) {
   const SolverCosts costs{{"sure", {{"p1", 4}, {"p2", 4}}},
-                    {"fast", {{"p1", 1}, {"p2", kNever}}},
-                    {"slow", {{"p1", 8}, {"p2", 8}}},
-                    {"never", {{"p1", kNever}}}};
+                          {"fast", {{"p1", 1}, {"p2", kNever}}},
+                          {"slow", {{"p1", 8}, {"p2", 8}}},
+                          {"never", {{"p1", kNever}}}};
   const auto ranked = ranking(costs);
   ASSERT_EQ(ranked.size(), 3u) << "a solver without a solved problem has no place";
   EXPECT_EQ(ranked[0].solver, "sure");
