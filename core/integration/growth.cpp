@@ -13,37 +13,68 @@ template <class Real>
 Growth<Real>::Growth(const System<Real>& system, DerivativeSource source)
     : system_(system), differentiator_(system, source) {}
 
+// Sets J_; false if it is not known.
 template <class Real>
-double Growth<Real>::rate(const State<Real>& state, double time) {
+bool Growth<Real>::linearize(const State<Real>& state) {
   constexpr Index kMost = 50;
   const Sizes n = system_.sizes();
   const Index rates = n.nu + n.nx, size = n.nu + rates;
-  if (size > kMost) return 0;
+  if (size > kMost) return false;
   differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
   Mat<double> D0 = D_.dense0().template cast<double>(), right(n.n(), size);
   right << D_.dense2().leftCols(n.nu).template cast<double>(), D_.dense1().leftCols(rates).template cast<double>();
-  if (!D0.allFinite() || !right.allFinite()) return 0;
+  if (!D0.allFinite() || !right.allFinite()) return false;
   Equilibration<double> equilibration;
   equilibration.apply(*D_.pattern, D0.data());
   const Eigen::FullPivLU<Mat<double>> lu(D0);
-  if (!lu.isInvertible()) return 0;
-  Mat<double> J = Mat<double>::Zero(size, size);
-  J.topRows(n.nu).middleCols(n.nu, n.nu).setIdentity();
+  if (!lu.isInvertible()) return false;
+  J_ = Mat<double>::Zero(size, size);
+  J_.topRows(n.nu).middleCols(n.nu, n.nu).setIdentity();
   for (Index j = 0; j < size; ++j) {
     Vec<double> column = right.col(j);
     equilibration.scaleRight(column);
     column = lu.solve(column);
     equilibration.scaleBack(column);
-    J.col(j).tail(rates) = -column.head(rates);
+    J_.col(j).tail(rates) = -column.head(rates);
   }
-  if (!J.allFinite()) return 0;
-  const double round_off = kRoundOffUnits * std::numeric_limits<double>::epsilon() * J.norm();
-  double largest = 0;
-  const Eigen::EigenSolver<Mat<double>> solver(J, false);
+  round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() * J_.norm();
+  return J_.allFinite();
+}
+
+template <class Real>
+bool Growth<Real>::grows(const std::complex<double>& lambda, double time) const {
+  return lambda.real() * time > 1 && lambda.real() > round_off_;
+}
+
+template <class Real>
+double Growth<Real>::rate(const State<Real>& state, double time) {
+  if (!linearize(state)) return 0;
+  const Eigen::EigenSolver<Mat<double>> solver(J_, false);
   if (solver.info() != Eigen::Success) return 0;
-  for (const std::complex<double>& lambda : solver.eigenvalues()) {
-    const bool grows = lambda.real() * time > 1 && lambda.real() > round_off;
-    if (grows) largest = std::max(largest, std::abs(lambda));
+  double largest = 0;
+  for (const auto& lambda : solver.eigenvalues()) {
+    if (grows(lambda, time)) largest = std::max(largest, std::abs(lambda));
+  }
+  return largest;
+}
+
+template <class Real>
+double Growth<Real>::restingRate(const State<Real>& state, double time, double h, const Vec<double>& tolerance) {
+  if (!(h * rate(state, time) > 1)) return 0;
+  const Eigen::EigenSolver<Mat<double>> right(J_), left(J_.transpose());
+  if (right.info() != Eigen::Success || left.info() != Eigen::Success) return 0;
+  Vec<std::complex<double>> f(J_.rows());
+  f << state.v.template cast<double>(), state.w.head(f.size() - state.v.size()).template cast<double>();
+  double largest = 0;
+  for (Index i = 0; i < f.size(); ++i) {
+    const std::complex<double> lambda = right.eigenvalues()[i];
+    if (!grows(lambda, time) || !(h * std::abs(lambda) > 1)) continue;
+    Index same = 0;
+    (left.eigenvalues().array() - lambda).abs().minCoeff(&same);
+    const Vec<std::complex<double>> p = left.eigenvectors().col(same), q = right.eigenvectors().col(i);
+    const double part = std::abs((p.transpose() * f).value() / (p.transpose() * q).value());
+    const bool rests = h * part * (q.cwiseAbs().array() / tolerance.array()).maxCoeff() < 1;
+    if (rests) largest = std::max(largest, std::abs(lambda));
   }
   return largest;
 }

@@ -13,9 +13,9 @@
 
 namespace irk {
 
-// Watches an integration for rests, steps in which nothing moves by more than its tolerance, at which errors grow. A
-// deviation from such a rest that is smaller than the tolerance grows in truth, but a step longer than its time
-// constant damps it: stiffly accurate methods damp all fast motions, growing ones as well.
+// Watches an integration for motions that rest though errors grow in them: they move nothing by more than its tolerance
+// in a step. A deviation from such a rest that is smaller than the tolerance grows in truth, but a step longer than its
+// time constant damps it: stiffly accurate methods damp all fast motions, growing ones as well.
 template <class Real>
 class UnstableRest {
  public:
@@ -29,17 +29,22 @@ class UnstableRest {
   // An integration begins. The limit of its steps stays.
   void begin() {
     found_ = false;
+    steps_ = 0;
     last_.resize(0);
   }
   void look(const StepRecord<Real>& step) {
-    if (!same_unknowns_) return;
-    const double h = std::abs(step.h);
+    if (!same_unknowns_ || step.h < 0 || step.state.u.size() + step.state.x.size() == 0) return;
+    setTolerances(step.state);
     const Vec<double> rates = ratesIn(step.state);
-    const bool rests = last_.size() > 0 && h * std::max(rates.maxCoeff(), last_.maxCoeff()) < 1;
+    const bool all_rest = last_.size() > 0 && step.h * std::max(rates.maxCoeff(), last_.maxCoeff()) < 1;
     last_ = rates;
-    if (!rests) return;
-    const double growth = growth_.rate(step.state, std::abs(static_cast<double>(Real(t_end_ - step.t))));
-    if (!(growth * h > 1)) return;
+    // Eigenvalues of N components, once in N steps, cost less than the steps.
+    if (++steps_ < rates.size() && !all_rest) return;
+    steps_ = 0;
+    const double left = static_cast<double>(Real(t_end_ - step.t));
+    const double growth =
+        all_rest ? growth_.rate(step.state, left) : growth_.restingRate(step.state, left, step.h, tolerance_);
+    if (!(growth * step.h > 1)) return;
     found_ = true;
     t_ = static_cast<double>(step.t);
     limit_ = 1 / (2 * growth);
@@ -51,20 +56,20 @@ class UnstableRest {
   double t() const { return t_; }
 
  private:
+  // Of u, v and x.
+  void setTolerances(const State<Real>& s) {
+    const Index nu = s.u.size(), nx = s.x.size();
+    tolerance_.resize(2 * nu + nx);
+    tolerance_ << s.u.template cast<double>(), s.v.template cast<double>(), s.x.template cast<double>();
+    for (Index i = 0; i < tolerance_.size(); ++i) {
+      tolerance_[i] = tolerances_.of(i < scale_.size() ? scale_[i] : 1, tolerance_[i]);
+    }
+  }
   // The magnitudes of (u, v, x)' in tolerances.
   Vec<double> ratesIn(const State<Real>& s) const {
-    const Index nu = s.u.size(), nx = s.x.size();
-    Vec<double> rates(2 * nu + nx);
-    const auto add = [&](Index i, const Real& y, const Real& rate) {
-      const double scale = i < scale_.size() ? scale_[i] : 1;
-      rates[i] = std::abs(static_cast<double>(rate)) / tolerances_.of(scale, static_cast<double>(y));
-    };
-    for (Index i = 0; i < nu; ++i) {
-      add(i, s.u[i], s.v[i]);
-      add(nu + i, s.v[i], s.w[i]);
-    }
-    for (Index i = 0; i < nx; ++i) add(2 * nu + i, s.x[i], s.w[nu + i]);
-    return rates;
+    Vec<double> rates(tolerance_.size());
+    rates << s.v.template cast<double>(), s.w.head(s.v.size() + s.x.size()).template cast<double>();
+    return rates.cwiseAbs().cwiseQuotient(tolerance_);
   }
 
   Growth<Real> growth_;
@@ -73,8 +78,9 @@ class UnstableRest {
   Vec<double> scale_;
   Real t_end_;
   bool found_ = false;
+  Index steps_ = 0;  // since eigenvalues were computed
   double limit_ = 0, t_ = 0;
-  Vec<double> last_;  // ratesIn at the end of the step before
+  Vec<double> tolerance_, last_;  // last_: ratesIn at the end of the step before
 };
 
 // Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both

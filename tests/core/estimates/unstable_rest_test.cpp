@@ -66,6 +66,33 @@ TEST(UnstableRest, AnOscillationThatGrowsIsFollowed) {
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
 }
 
+/// An oscillator of frequency 1 beside x' = L sin(x - 1), which leaves 1 for 1 + pi.
+struct RestBesideMotion {
+  double L;
+  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.u[0] - p.a[0];
+    using std::sin;
+    r.x[0] = L * sin(p.x[0] - 1.0) - p.k[0];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.u[0] = 1;
+    s.x[0] = 1 + 1e-9;
+    return s;
+  }
+};
+
+TEST(UnstableRest, IsFollowedWhereOtherComponentsMove) {
+  for (const double L : {10.0, 30.0, 100.0, 300.0}) {
+    const RestBesideMotion problem{L};
+    const auto run = measuredRun(problem, problem.start(), 10, embedded(1e-4));
+    EXPECT_LE(std::abs(run.first.state.x[0] - 1 - M_PI), run.bar.x[0] + 1e-3) << L;
+    EXPECT_LE(std::abs(run.first.state.u[0] - std::cos(10.0)), 3 * run.bar.u[0] + 1e-3) << L;
+  }
+}
+
 TEST(UnstableRest, ARemarkTellsOfOneThatIsTooFast) {
   const Spiral problem{1, 1e6};
   const auto run = measuredRun(problem, problem.start(), 15, embedded(1e-4));
@@ -95,6 +122,20 @@ TEST(Growth, IsTheLargestEigenvalueThatGrowsInTime) {
   EXPECT_EQ(growth(spiral(2), rest, 0.49), 0) << "less than a factor e";
   EXPECT_EQ(growth(spiral(0), rest, 1e6), 0) << "an oscillation";
   EXPECT_EQ(growth(spiral(-2), rest, 1e6), 0);
+}
+
+TEST(Growth, RestsInAModeWhateverTheOthersDo) {
+  const auto system = makeSystem<double>(RestBesideMotion{100});
+  const auto rate = [&](double deviation, double h) {
+    State<double> s(system->sizes());
+    s.v[0] = 1;
+    s.x[0] = 1 + deviation;
+    s.w << 0, 100 * std::sin(deviation);
+    return Growth<double>(*system, DerivativeSource::kAutomatic).restingRate(s, 10, h, Vec<double>::Constant(3, 1e-4));
+  };
+  EXPECT_NEAR(rate(1e-9, 0.1), 100, 1e-4);
+  EXPECT_EQ(rate(1e-9, 0.009), 0) << "the step resolves it";
+  EXPECT_EQ(rate(1e-4, 0.1), 0) << "it moves by ten tolerances";
 }
 
 // With its multiplier a pendulum in Cartesian coordinates has the growth of one in the angle: sqrt(g / l).
