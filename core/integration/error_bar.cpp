@@ -154,7 +154,7 @@ class Stricter {
  public:
   Stricter(Integrator<Real>& integrator, const Vec<double>& scale, double longest_step) : integrator_(integrator) {
     integrator_.weighErrorsBy(scale);
-    if (longest_step > 0) integrator_.limitSteps(longest_step);
+    integrator_.limitSteps(longest_step);
   }
   ~Stricter() {
     integrator_.weighErrorsBy({});
@@ -191,11 +191,12 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
   watched.accepted = [&](const StepRecord<Real>& step) {
     small.look(step);
     rest.look(step);
+    if (rest.follows()) second.limitSteps(rest.limit());
     if (of.monitor.accepted) of.monitor.accepted(step);
   };
   for (;;) {
     const Vec<double> relative_scale = small.relativeScale();
-    const bool controls = relative_scale.size() > 0 || rest.limit() > 0;
+    const bool controls = relative_scale.size() > 0 || rest.follows();
     watched.interrupt = [&] {
       const bool too_long = controls && left-- <= 0;
       if (small.found() || rest.found() || too_long) return Outcome::kTimeout;

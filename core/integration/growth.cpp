@@ -60,7 +60,7 @@ double Growth<Real>::rate(const State<Real>& state, double time) {
 
 template <class Real>
 double Growth<Real>::restingRate(const State<Real>& state, double time, double h, const Vec<double>& tolerance) {
-  if (!(h * rate(state, time) > 1)) return 0;
+  if (!linearize(state)) return 0;
   const Eigen::EigenSolver<Mat<double>> right(J_), left(J_.transpose());
   if (right.info() != Eigen::Success || left.info() != Eigen::Success) return 0;
   Vec<std::complex<double>> f(J_.rows());
@@ -68,7 +68,7 @@ double Growth<Real>::restingRate(const State<Real>& state, double time, double h
   double largest = 0;
   for (Index i = 0; i < f.size(); ++i) {
     const std::complex<double> lambda = right.eigenvalues()[i];
-    if (!grows(lambda, time) || !(h * std::abs(lambda) > 1)) continue;
+    if (!grows(lambda, time)) continue;
     Index same = 0;
     (left.eigenvalues().array() - lambda).abs().minCoeff(&same);
     const Vec<std::complex<double>> p = left.eigenvectors().col(same), q = right.eigenvectors().col(i);

@@ -20,9 +20,8 @@ class Growth {
   /// Re lambda time > 1. 0 if there are none, if (u, v, x) do not determine (a, k, z), and if there are more than
   /// 50 components: eigenvalues of N components cost about 25 N^3 operations. Allocates.
   double rate(const State<Real>& state, double time);
-  /// The same among those that a step of size h does not resolve, h |lambda| > 1, and whose motion rests: it moves no
-  /// component by more than its `tolerance` (of u, v, x) within h. With the eigenvector q and the left one p it is
-  /// q (p f) / (p q), f = (v, a, k).
+  /// The same among those whose motion rests: it moves no component by more than its `tolerance` (of u, v, x) within h.
+  /// With the eigenvector q and the left one p it is q (p f) / (p q), f = (v, a, k).
   double restingRate(const State<Real>& state, double time, double h, const Vec<double>& tolerance);
 
  private:

@@ -90,7 +90,6 @@ class Integrator<Real>::Run {
   }
 
   void limitSteps(double h_max) {
-    const InUse use(in_use_, "Integrator::limitSteps");
     if (!(h_max > 0)) throw Misuse("Integrator::limitSteps: h_max needs a number > 0");
     h_max_ = std::min(h_max, options_.step.h_max);
     if (backward_) backward_->limitSteps(h_max);

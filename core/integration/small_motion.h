@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ class UnstableRest {
         scale_(scale),
         t_end_(t_end) {}
 
-  // An integration begins. The limit of its steps stays.
+  // An integration begins.
   void begin() {
     found_ = false;
     steps_ = 0;
@@ -39,19 +40,24 @@ class UnstableRest {
     const bool all_rest = last_.size() > 0 && step.h * std::max(rates.maxCoeff(), last_.maxCoeff()) < 1;
     last_ = rates;
     // Eigenvalues of N components, once in N steps, cost less than the steps.
-    if (++steps_ < rates.size() && !all_rest) return;
+    if (++steps_ < rates.size() && !all_rest && !follows_) return;
     steps_ = 0;
     const double left = static_cast<double>(Real(t_end_ - step.t));
-    const double growth =
-        all_rest ? growth_.rate(step.state, left) : growth_.restingRate(step.state, left, step.h, tolerance_);
-    if (!(growth * step.h > 1)) return;
-    found_ = true;
-    t_ = static_cast<double>(step.t);
-    limit_ = 1 / (2 * growth);
+    double growth = growth_.rate(step.state, left);
+    const bool matters = growth * step.h > 1 || (follows_ && growth > 0);
+    if (matters && !all_rest) growth = growth_.restingRate(step.state, left, step.h, tolerance_);
+    if (follows_) {
+      limit_ = growth > 0 ? 1 / (2 * growth) : std::numeric_limits<double>::infinity();
+    } else if (growth * step.h > 1) {
+      found_ = follows_ = true;
+      t_ = static_cast<double>(step.t);
+      limit_ = 1 / (2 * growth);
+    }
   }
-  // Whether this integration has found one, or one that grows faster than those before.
+  // Whether this integration has found the first one. From the next integration on they are followed.
   bool found() const { return found_; }
-  // The length of steps with which a deviation from it can be followed; 0: there is none.
+  bool follows() const { return follows_; }
+  // The length of the next step with which a deviation from a rest can be followed.
   double limit() const { return limit_; }
   double t() const { return t_; }
 
@@ -77,9 +83,9 @@ class UnstableRest {
   Tolerances tolerances_;
   Vec<double> scale_;
   Real t_end_;
-  bool found_ = false;
+  bool found_ = false, follows_ = false;
   Index steps_ = 0;  // since eigenvalues were computed
-  double limit_ = 0, t_ = 0;
+  double limit_ = std::numeric_limits<double>::infinity(), t_ = 0;
   Vec<double> tolerance_, last_;  // last_: ratesIn at the end of the step before
 };
 

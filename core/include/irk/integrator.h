@@ -45,8 +45,8 @@ class Integrator {
   /// alone. With NormKind::kAbsolute a component counts relative to atol (scale_i + |y_i|) where that is below atol.
   /// Empty: those of the constructor again. Throws Misuse for other numbers, and during `integrate`.
   void weighErrorsBy(const Vec<double>& scale);
-  /// The longest step of the following integrations, if it is shorter than StepOptions::h_max; infinity: that one
-  /// again. Throws Misuse unless it is > 0, and during `integrate`.
+  /// The longest step from now on, if it is shorter than StepOptions::h_max; infinity: that one again. May be called
+  /// from Monitor::accepted, for the steps that follow. Throws Misuse unless it is > 0.
   void limitSteps(double h_max);
   /// The system, as given to the constructor.
   const System<Real>& system() const;
