@@ -16,7 +16,7 @@ Growth<Real>::Growth(const System<Real>& system, DerivativeSource source)
 // Sets J_; false if it is not known.
 template <class Real>
 bool Growth<Real>::linearize(const State<Real>& state) {
-  constexpr Index kMost = 50;
+  constexpr Index kMost = 50;  // chosen: 1e6 operations, as for ten steps of this size; not measured on larger systems
   const Sizes n = system_.sizes();
   const Index rates = n.nu + n.nx, size = n.nu + rates;
   if (size > kMost) return false;

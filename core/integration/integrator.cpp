@@ -243,7 +243,8 @@ class Integrator<Real>::Run {
     if (left == 0) return {Outcome::kMaxSteps, h, "too many steps"};
     if (!(h > 0)) return {too_small_, h, "the step control chose no size > 0 " + trajectory_.rejections()};
     const bool undefined = too_small_ == Outcome::kNotFinite;
-    const char* const what = undefined ? "not finite in the smallest step as well " : "step too small ";
+    const char* const what =
+        undefined ? "the residual or a derivative is not finite in the smallest step as well " : "step too small ";
     if (h < smallestSize()) return {too_small_, h, what + trajectory_.rejections()};
     const bool stalls =
         attempts > 0 && stall_.attempted(static_cast<double>(state().t), static_cast<double>(t_end), left);

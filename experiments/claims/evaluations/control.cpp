@@ -36,7 +36,9 @@ std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, Cost
   std::map<TableRow, std::map<std::string, double>> all;
   for (const auto& [place, methods] : points) {
     for (const auto& [method, its] : methods) {
-      if (its.costs.size() >= kMinPoints) all[place][method] = fitLine(its.switches, its.costs).slope;
+      if (its.costs.size() < kMinPoints) continue;
+      const auto [least, most] = std::minmax_element(its.switches.begin(), its.switches.end());
+      all[place][method] = *least < *most ? fitLine(its.switches, its.costs).slope : std::nan("");
     }
   }
   return all;
