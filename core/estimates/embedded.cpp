@@ -86,13 +86,14 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       slip_(sizes_.nu),
       at_(sizes_),
       error_(sizes_),
+      beside_(sizes_),
       e_(sizes_.n(), 1) {
   start_.integrals.noalias() = scheme.A_transposed * start_.weights;
 }
 
 template <class Real>
 Index EmbeddedEstimate<Real>::worstComponent() const {
-  return norm_.worst(error_, State<Real>(sizes_), 1, Vec<double>::Ones(sizes_.components()));
+  return norm_.worst(*last_, State<Real>(sizes_), 1, Vec<double>::Ones(sizes_.components()));
 }
 
 // The point with u, and v, x, d of `state`, and w = K(0).
@@ -132,32 +133,33 @@ Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at)
   return Outcome::kSuccess;
 }
 
-// Solves for e with the residual e_, and sets `error_` to the error of the state that follows from e.
+// Solves for e with the residual e_, and sets `error` to the error of the state that follows from e.
 template <class Real>
-Outcome EmbeddedEstimate<Real>::filter(const Real& h) {
+Outcome EmbeddedEstimate<Real>::filter(const Real& h, State<Real>& error) {
+  last_ = &error;
   const Outcome solved = solve(h);
   if (solved != Outcome::kSuccess) return solved;
   const Real step = h * mu_;
   const Real* const e = e_.data();
   inParts(threads_, sizes_.nu, [&](Index first, Index last) {
     for (Index i = first; i < last; ++i) {
-      error_.v[i] = -step * e[i];
-      error_.u[i] = slip_[i] + step * error_.v[i];
+      error.v[i] = -step * e[i];
+      error.u[i] = slip_[i] + step * error.v[i];
     }
   });
   inParts(threads_, sizes_.nx, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i) error_.x[i] = -step * e[sizes_.nu + i];
+    for (Index i = first; i < last; ++i) error.x[i] = -step * e[sizes_.nu + i];
   });
   const auto& powers = system_.errorPowers().z;
   for (Index i = 0; i < sizes_.nz; ++i) {
-    error_.z()[i] = powers[static_cast<std::size_t>(i)] == 2 ? Real(0) : Real(-e[sizes_.nu + sizes_.nx + i]);
+    error.z()[i] = powers[static_cast<std::size_t>(i)] == 2 ? Real(0) : Real(-e[sizes_.nu + sizes_.nx + i]);
   }
   return Outcome::kSuccess;
 }
 
 template <class Real>
 auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      const AtStart& at_start, double again_above) -> Result {
+                                      const AtStart& at_start, double again_above, State<Real>& error) -> Result {
   const Real& h = stages.h;
   Result result;
   if (scaled_) rowScales(system_.rowPowers(), h, scales_);
@@ -170,19 +172,19 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
     at_.u[i] = from.u[i] + slip_[i];
   }
   result.outcome = evaluateAt(pointAt(from.t, at_.u, from), EquationsAt::kStart);
-  if (result.outcome == Outcome::kSuccess) result.outcome = filter(h);
+  if (result.outcome == Outcome::kSuccess) result.outcome = filter(h, error);
   if (result.outcome != Outcome::kSuccess) return result;
-  result.error = norm_.magnitude(error_, static_cast<double>(h));
+  result.error = norm_.magnitude(error, static_cast<double>(h));
   if (result.error > again_above) {
-    slip_ += (h * mu_) * error_.v;
-    at_.u = from.u + error_.u + slip_;
-    at_.v = from.v + error_.v;
-    at_.x = from.x + error_.x;
+    slip_ += (h * mu_) * error.v;
+    at_.u = from.u + error.u + slip_;
+    at_.v = from.v + error.v;
+    at_.x = from.x + error.x;
     at_.d = from.d;
     result.outcome = evaluateAt(pointAt(from.t, at_.u, at_), EquationsAt::kStart);
-    if (result.outcome == Outcome::kSuccess) result.outcome = filter(h);
+    if (result.outcome == Outcome::kSuccess) result.outcome = filter(h, error);
     if (result.outcome != Outcome::kSuccess) return result;
-    result.error = norm_.magnitude(error_, static_cast<double>(h));
+    result.error = norm_.magnitude(error, static_cast<double>(h));
   }
   if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
   return result;
@@ -191,7 +193,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above)
     -> Result {
-  return estimate(from, stages, start_, again_above);
+  return estimate(from, stages, start_, again_above, error_);
 }
 
 template <class Real>
@@ -229,17 +231,17 @@ auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<
   if (result.outcome != Outcome::kSuccess || !raises(most)) return result;
   slip_.setZero();
   const auto measure = [&] {
-    result.outcome = filter(h);
+    result.outcome = filter(h, beside_);
     if (result.outcome != Outcome::kSuccess) return;
-    error_.z().setZero();
-    result.error = norm_.magnitude(error_, static_cast<double>(h));
+    beside_.z().setZero();
+    result.error = norm_.magnitude(beside_, static_cast<double>(h));
     if (!std::isfinite(result.error)) result.outcome = Outcome::kNotFinite;
   };
   measure();
   if (result.outcome != Outcome::kSuccess || result.error <= 1) return result;
-  at_.u = at.u + error_.u;
-  at_.v = at.v + error_.v;
-  at_.x = at.x + error_.x;
+  at_.u = at.u + beside_.u;
+  at_.v = at.v + beside_.v;
+  at_.x = at.x + beside_.x;
   at_.d = at.d;
   residualBehind();
   result.outcome = evaluateAt(pointAt(at.t, at_.u, at_), EquationsAt::kInside);
@@ -259,7 +261,7 @@ auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from, const StageP
   const Index terms = beginsAtStart(scheme_.c) ? std::max<Index>(q - 1, 1) : q;
   lower_.weights.noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis_.head(terms);
   lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;
-  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity());
+  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity(), beside_);
 }
 
 IRK_INSTANTIATE_CLASS(EmbeddedEstimate)

@@ -29,6 +29,8 @@ class EmbeddedEstimate {
   /// least 1. (Radau IA with one stage, c = 0 and a = 1, has stage order 0; its stage values belong to another time.)
   EmbeddedEstimate(const System<Real>& system, const Scheme<Real>& scheme, const IntegratorOptions& options,
                    NewtonMatrix<Real>& stages, const ErrorNorm<Real>& norm, Counters& counters);
+  EmbeddedEstimate(const EmbeddedEstimate&) = delete;
+  EmbeddedEstimate& operator=(const EmbeddedEstimate&) = delete;
 
   struct Result {
     Outcome outcome = Outcome::kSuccess;
@@ -55,8 +57,10 @@ class EmbeddedEstimate {
   void reserve() {
     if (own_) own_->reserve();
   }
-  /// The component of (u, v, x, z) with the largest part in the last estimate.
+  /// The component of (u, v, x, z) with the largest part in the error computed last.
   Index worstComponent() const;
+  /// The last result of `evaluate` by component.
+  const State<Real>& errors() const { return error_; }
   /// Among which vector work is divided.
   int threads() const { return threads_; }
   double mu() const { return static_cast<double>(mu_); }
@@ -73,12 +77,12 @@ class EmbeddedEstimate {
     Vec<Real> weights, integrals;
   };
   Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, const AtStart& at_start,
-                  double again_above);
+                  double again_above, State<Real>& error);
   enum class EquationsAt { kStart, kInside };
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
   Outcome evaluateAt(const Point<Real>& p, EquationsAt at);
   bool raises(Vec<Real>& most) const;
-  Outcome filter(const Real& h);
+  Outcome filter(const Real& h, State<Real>& error);
   Outcome solve(const Real& h);
   // Sets `predicted_` to the residual that a linear system has at the point displaced by the error, which e_ gives:
   // r - (h mu D1 + h^2 mu^2 D2) e = D0 e.
@@ -102,7 +106,9 @@ class EmbeddedEstimate {
   Vec<Real> predicted_;    // residualBehind, n
   Vec<Real> slip_;         // h mu (v0 - V(0)), nu
   State<Real> at_;         // the point where the residual is evaluated, unless that is the step's start
-  State<Real> error_;
+  State<Real> error_;      // of `evaluate`
+  State<Real> beside_;     // of the other estimates
+  const State<Real>* last_ = &error_;
   Mat<Real> e_;  // n x 1
 };
 

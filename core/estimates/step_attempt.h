@@ -57,6 +57,9 @@ class StepAttempt {
   virtual int order() const = 0;
   /// The component of (u, v, x, z) with the largest error of the last solved step; -1 if not known.
   virtual Index worstComponent() const { return -1; }
+  /// The estimated errors of the last solved step by component, where they are within the tolerance; null where the
+  /// strategy does not keep them.
+  virtual const State<Real>* errors() const { return nullptr; }
   /// The parts of the last solved step, in order: their starts and stages. Valid as long as `from` of the attempt is.
   virtual StepPieces<Real> pieces(const State<Real>& from) const = 0;
   /// Whether `pieces` has to return all pieces from now on; otherwise an estimate may drop pieces that it does not

@@ -34,8 +34,11 @@ class VariableOrder final : public StepAttempt<Real> {
   NextStep accepted(const AttemptResult& result, double h, double h_next) override;
   int order() const override;
   Index worstComponent() const override { return member().estimate.worstComponent(); }
+  const State<Real>* errors() const override {
+    return &members_[past_at_]->estimate.errors();  // the order may have changed since
+  }
   StepPieces<Real> pieces(const State<Real>& from) const override {
-    return {{{{&from, past_}, {nullptr, nullptr}}}, 1};  // the order may have changed since
+    return {{{{&from, past_}, {nullptr, nullptr}}}, 1};
   }
 
  private:

@@ -64,8 +64,8 @@ Monitor<Real> reversed(const Monitor<Real>& callers) {
     const State<Real> state = reversed(step.state);
     std::optional<InsideBackward<Real>> inside;
     if (step.inside) inside.emplace(*step.inside);
-    callers.accepted(
-        {opposite(step.t), -step.h, step.error, step.newton_iterations, state, inside ? &*inside : nullptr});
+    callers.accepted({opposite(step.t), -step.h, step.error, step.newton_iterations, state, inside ? &*inside : nullptr,
+                      step.errors});
   };
   return monitor;
 }

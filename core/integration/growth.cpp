@@ -73,7 +73,7 @@ double Growth<Real>::restingRate(const State<Real>& state, double time, double h
     (left.eigenvalues().array() - lambda).abs().minCoeff(&same);
     const Vec<std::complex<double>> p = left.eigenvectors().col(same), q = right.eigenvectors().col(i);
     const double part = std::abs((p.transpose() * f).value() / (p.transpose() * q).value());
-    const bool rests = h * part * (q.cwiseAbs().array() / tolerance.array()).maxCoeff() < 1;
+    const bool rests = part / std::abs(lambda) * (q.cwiseAbs().array() / tolerance.array()).maxCoeff() < 1;
     if (rests) largest = std::max(largest, std::abs(lambda));
   }
   return largest;

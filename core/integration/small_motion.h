@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/constants.h"
 #include "core/integration/growth.h"
 #include "core/system/component_name.h"
 #include "irk/monitor.h"
@@ -90,11 +91,14 @@ class UnstableRest {
 };
 
 // Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
-// ends of it, and by their rate in between, so that a component that passes through zero is none of them.
+// ends of it, and by their rate in between, so that a component that passes through zero is none of them. One whose
+// estimated error is small beside its own size, by the relative tolerance of the integration that measures, is none of
+// them either: it is as accurate as control by its size would make it.
 template <class Real>
 class SmallComponents {
  public:
-  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale) : scale_(scale) {
+  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale)
+      : relative_(kBarStricter * std::max(tolerances.rtol, tolerances.atol)), scale_(scale) {
     const bool ones = scale.size() == 0 || tolerances.norm == NormKind::kAbsolute;
     if (ones) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
     of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
@@ -112,9 +116,10 @@ class SmallComponents {
   }
   void look(const StepRecord<Real>& step) {
     const double h = std::abs(step.h);
-    forEach(step.state, [&](Component& c, Index, double y, double rate) {
+    forEach(step.state, [&](Component& c, Index i, double y, double rate) {
       if (c.first == 0) c.first = y;
-      if (!c.small && c.begins_below && y > 0 && y + h * rate < c.tolerance) c.small = found_ = true;
+      const bool below = c.begins_below && y > 0 && y + h * rate < c.tolerance;
+      if (!c.small && below && !isAccurate(step, i, y)) c.small = found_ = true;
       c.begins_below = y < c.tolerance;
     });
   }
@@ -149,6 +154,13 @@ class SmallComponents {
     double first = 0;  // the first magnitude that is not zero
     bool starts_at_zero = false, begins_below = false, small = false;
   };
+  bool isAccurate(const StepRecord<Real>& step, Index i, double y) const {
+    if (!step.errors) return false;
+    const State<Real>& e = *step.errors;
+    const Index nu = e.u.size();
+    const Real& error = i < nu ? e.u[i] : i < 2 * nu ? e.v[i - nu] : e.x[i - 2 * nu];
+    return std::abs(static_cast<double>(error)) <= relative_ * y;
+  }
   // Calls f(component, its index, its magnitude, that of its rate).
   template <class F>
   void forEach(const State<Real>& s, F&& f) {
@@ -165,6 +177,7 @@ class SmallComponents {
   }
 
   bool found_ = false;
+  double relative_;
   Vec<double> scale_;
   std::vector<Component> of_;
 };

@@ -236,8 +236,10 @@ template <class Real>
 void Trajectory<Real>::report(const CommittedStep<Real>& step) {
   const State<Real> scene = system_.toScene(state_);
   const bool inside = monitor_->inside && inside_->begin(next_, state_.t, scene, attempt_->pieces(next_));
+  const State<Real>* const errors = attempt_->errors();
+  const bool same = errors && errors->u.size() == scene.u.size() && errors->x.size() == scene.x.size();
   monitor_->accepted({state_.t, static_cast<double>(step.h), step.attempt.error, step.attempt.newton_iterations, scene,
-                      inside ? &*inside_ : nullptr});
+                      inside ? &*inside_ : nullptr, same ? errors : nullptr});
 }
 
 // Sets the new mode and its (a, k, z), which may make further switches due.

@@ -40,8 +40,9 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// itself: over 700 drawn runs of scenes that nobody tuned for, the median of bar over true error is 1.
 /// Components that are below their absolute tolerance for whole steps of the second integration need not have a correct
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
-/// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each
-/// component that it finds small, controls it relative to its size in either norm, and is done as usual only if that
+/// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each component
+/// that it finds small and, by its estimate, not accurate beside its size; it controls it relative to its size in
+/// either norm, and is done as usual only if that
 /// fails or takes more steps than kBarEffort over the unknowns, with a `remark`: a fast motion far below the tolerance
 /// would need any number.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each

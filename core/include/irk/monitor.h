@@ -36,6 +36,9 @@ struct StepRecord {
   /// The solution inside the step, valid during the callback only. Null if Monitor::inside is false, and if it is not
   /// known: for integrators of other libraries, and for methods with two stages at one time.
   InsideStep<Real>* inside = nullptr;
+  /// The estimated errors of u, v and x, valid during the callback only. Null with other estimates than `embedded`, and
+  /// in formulations that have other unknowns than the scene.
+  const State<Real>* errors = nullptr;
 };
 
 /// One switch. `state`: just after the switch, in the scene's unknowns; valid during the callback only.

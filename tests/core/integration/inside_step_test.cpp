@@ -53,6 +53,32 @@ std::vector<double> errorsInside(const std::string& method, double h) {
   return most;
 }
 
+// The errors by component are those whose norm the step has, and only the embedded estimate has them.
+TEST(StepRecord, HasTheErrorsOfItsNorm) {
+  for (const ErrorEstimate estimate : {ErrorEstimate::kEmbedded, ErrorEstimate::kRichardson}) {
+    IntegratorOptions options;
+    options.tolerances.rtol = options.tolerances.atol = 1e-5;
+    options.step.estimate = estimate;
+    options.guards = Guards::kNone;
+    Integrator<double> integrator(makeSystem<double>(Both{}), makeTableau<double>("radau_iia_3"), options);
+    Monitor<double> monitor;
+    State<double> before = bothStart();
+    int steps = 0;
+    monitor.accepted = [&](const StepRecord<double>& step) {
+      ++steps;
+      EXPECT_EQ(step.errors != nullptr, estimate == ErrorEstimate::kEmbedded);
+      if (!step.errors) return;
+      const auto part = [](double error, double y) { return error / (1e-5 + 1e-5 * std::abs(y)); };
+      const State<double>& e = *step.errors;
+      const double norm = std::hypot(part(e.u[0], before.u[0]), part(e.v[0], before.v[0]), part(e.x[0], before.x[0]));
+      EXPECT_NEAR(norm / std::sqrt(3), step.error, 1e-12 * norm);
+      before = step.state;
+    };
+    EXPECT_EQ(integrator.integrate(bothStart(), 2.0, monitor).outcome, Outcome::kSuccess);
+    EXPECT_GT(steps, 3);
+  }
+}
+
 // For collocation methods: x, v of order s + 1, u of s + 2, k of s, and none of more than p.
 TEST(InsideStep, HasTheOrderThatIsDocumented) {
   struct Case {
