@@ -59,7 +59,7 @@ double Growth<Real>::rate(const State<Real>& state, double time) {
 }
 
 template <class Real>
-double Growth<Real>::restingRate(const State<Real>& state, double time, double h, const Vec<double>& tolerance) {
+double Growth<Real>::restingRate(const State<Real>& state, double time, const Vec<double>& tolerance) {
   if (!linearize(state)) return 0;
   const Eigen::EigenSolver<Mat<double>> right(J_), left(J_.transpose());
   if (right.info() != Eigen::Success || left.info() != Eigen::Success) return 0;

@@ -21,9 +21,10 @@ class Growth {
   /// 50 components: eigenvalues of N components cost about 10 N^3 operations, with their vectors 25 N^3 (Golub & Van
   /// Loan, Matrix Computations, 7.5.6). Allocates.
   double rate(const State<Real>& state, double time);
-  /// The same among those whose motion rests: it moves no component by more than its `tolerance` (of u, v, x) within h.
-  /// With the eigenvector q and the left one p it is q (p f) / (p q), f = (v, a, k).
-  double restingRate(const State<Real>& state, double time, double h, const Vec<double>& tolerance);
+  /// The same among those whose motion rests: its distance from the rest of the linearized motion is below the
+  /// `tolerance` of each component of u, v, x. With the eigenvector q and the left one p the distance is
+  /// q (p f) / (lambda p q), f = (v, a, k).
+  double restingRate(const State<Real>& state, double time, const Vec<double>& tolerance);
 
  private:
   bool linearize(const State<Real>& state);

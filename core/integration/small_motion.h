@@ -15,9 +15,9 @@
 
 namespace irk {
 
-// Watches an integration for motions that rest though errors grow in them: they move nothing by more than its tolerance
-// in a step. A deviation from such a rest that is smaller than the tolerance grows in truth, but a step longer than its
-// time constant damps it: stiffly accurate methods damp all fast motions, growing ones as well.
+// Watches an integration for motions that rest though errors grow in them: they are nearer to their rest than the
+// tolerance. Such a deviation grows in truth, but a step longer than its time constant damps it: stiffly accurate
+// methods damp all fast motions, growing ones as well.
 template <class Real>
 class UnstableRest {
  public:
@@ -31,7 +31,9 @@ class UnstableRest {
   // An integration begins.
   void begin() {
     found_ = false;
+    looked_ = false;
     steps_ = 0;
+    rate_ = 0;
     last_.resize(0);
   }
   void look(const StepRecord<Real>& step) {
@@ -40,13 +42,17 @@ class UnstableRest {
     const Vec<double> rates = ratesIn(step.state);
     const bool all_rest = last_.size() > 0 && step.h * std::max(rates.maxCoeff(), last_.maxCoeff()) < 1;
     last_ = rates;
-    // Eigenvalues of N components, once in N steps, cost less than the steps.
-    if (++steps_ < rates.size() && !all_rest && !follows_) return;
+    // Eigenvalues of N components, once in N steps, cost less than the steps. A start may lie near a rest, which steps
+    // may leave as soon as they no longer resolve the growth.
+    const bool too_long = rate_ * step.h > 1 && rate_ * looked_with_ <= 1;
+    if (++steps_ < rates.size() && looked_ && !too_long && !all_rest && !follows_) return;
+    looked_ = true;
     steps_ = 0;
+    looked_with_ = step.h;
     const double left = static_cast<double>(Real(t_end_ - step.t));
-    double growth = growth_.rate(step.state, left);
+    double growth = rate_ = growth_.rate(step.state, left);
     const bool matters = growth * step.h > 1 || (follows_ && growth > 0);
-    if (matters && !all_rest) growth = growth_.restingRate(step.state, left, step.h, tolerance_);
+    if (matters && !all_rest) growth = growth_.restingRate(step.state, left, tolerance_);
     if (follows_) {
       limit_ = growth > 0 ? 1 / (2 * growth) : std::numeric_limits<double>::infinity();
     } else if (growth * step.h > 1) {
@@ -85,7 +91,11 @@ class UnstableRest {
   Vec<double> scale_;
   Real t_end_;
   bool found_ = false, follows_ = false;
-  Index steps_ = 0;  // since eigenvalues were computed
+  // Of the eigenvalues that were computed last in this integration: whether there are any, the steps since then, the
+  // length of the step then, and the rate of growth.
+  bool looked_ = false;
+  Index steps_ = 0;
+  double looked_with_ = 0, rate_ = 0;
   double limit_ = std::numeric_limits<double>::infinity(), t_ = 0;
   Vec<double> tolerance_, last_;  // last_: ratesIn at the end of the step before
 };
