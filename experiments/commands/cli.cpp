@@ -191,8 +191,8 @@ class Program {
 
   void addNew() {
     auto* sub = verb(app_, "new", "write a first file", [this](Streams s) { return newCommand(what_, out_, s); });
-    sub->add_option("kind", what_, "scene")->required();
-    sub->add_option("file", out_, "the file, such as four_bar.cpp; the scene's id is its name")->required();
+    sub->add_option("kind", what_, "scene or study")->required();
+    sub->add_option("file", out_, "the scene's file to write, such as four_bar.cpp; for a study the scene")->required();
   }
 
   void addList() {

@@ -114,8 +114,8 @@ int listCommand(const std::string& what, const SceneList& scenes, Streams stream
 /// what a row is, and a line per column with its unit and meaning.
 extern const std::string_view kColumnsPage;
 
-/// Writes the file `file` for a scene of the user's own, which runs as it is. `kind`: scene. Throws Misuse if the file
-/// exists.
+/// Writes a first file, which runs as it is. `kind` scene: the file `file`. `kind` study: SCENE_costs.toml beside the
+/// scene `file`, an id or a file. Throws Misuse if the file exists.
 int newCommand(const std::string& kind, const std::string& file, Streams streams);
 
 struct ReferenceOptions {

@@ -73,7 +73,7 @@ Values valuesOf(const CLI::Option& option) {
       {"study", {studies(), true}},
       {"--study", {studies(), true}},
       {"shell", {{"bash", "fish", "zsh"}}},
-      {"kind", {{"scene"}}},
+      {"kind", {{"scene", "study"}}},
       {"what", {{"analyses", "columns", "constants", "methods", "numbers", "scenes", "strategies", "studies"}}},
   };
   const std::string name = nameOf(option);
@@ -150,6 +150,7 @@ std::string examplesOf(const std::string& verb) {
        "  irk run order --quick\n  irk run my_study.toml --jobs 4\n"
        "  irk run work_precision --peers radau@libhairer.so,rodas@libhairer.so"},
       {"paper", "  irk paper --quick"},
+      {"new", "  irk new scene four_bar.cpp\n  irk new study four_bar.cpp"},
       {"ensemble",
        "  irk ensemble van_der_pol --set eps=1e-6..1e-3:1000:log --tol 1e-6 --out vdp.csv\n"
        "  irk ensemble robertson --start y2=0,1e-6 --start y1=0.5..1:50   all combinations, a row per run"},

@@ -64,7 +64,7 @@ TEST_F(Completion, AsksTheProgram) {
   EXPECT_TRUE(containsAll(verbs.out, {"solve\tone integration\n", "query\t"})) << verbs.out;
   EXPECT_EQ(verbs.out, same.out);
   EXPECT_EQ(verbs.status, 1);
-  EXPECT_EQ(program({"complete", "new", ""}).out, "scene\t\n");
+  EXPECT_EQ(program({"complete", "new", ""}).out, "scene\t\nstudy\t\n");
   const Ended method = program({"complete", "solve", "kepler", "--method", ""});
   EXPECT_TRUE(containsAll(method.out, {"\nradau_iia_5\t\n", "\ncvode_bdf\t\n"})) << method.out;
   EXPECT_EQ(method.status, 0) << "a tableau file";

@@ -61,6 +61,49 @@ TEST_F(OwnCommands, OfTheProgramsOwnPartsNameNoFile) {
   EXPECT_EQ(seriesCommand(table, table.rows[0]).text.find("--load"), std::string::npos);
 }
 
+TEST_F(OwnCommands, ANewStudyRunsAndDrawsOneFigure) {
+  ASSERT_EQ(irk("new scene lift.cpp").status, 0);
+  write("lift.cpp", replaced("lift.cpp", ".t_end = 5", ".t_end = 0.1"));
+  const Ran made = irk("new study lift.cpp");
+  ASSERT_EQ(made.status, 0) << made.text;
+  EXPECT_TRUE(containsAll(made.text, {"irk run lift_costs.toml"}));
+  const Ran again = irk("new study lift.cpp");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_TRUE(containsAll(again.text, {"'lift_costs.toml' exists"}));
+  write("lift_costs.toml",
+        replaced("lift_costs.toml", "1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10", "1e-4, 1e-8"));
+  const Ran ran = irk("run lift_costs.toml");
+  ASSERT_EQ(ran.status, 0) << ran.text;
+  const Table table = runs("lift_costs");
+  EXPECT_EQ(table.rows.size(), 12U);
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(textAt(table, row, "outcome"), "success");
+    EXPECT_LT(numberAt(table, row, "error"), 1e-2);
+    EXPECT_GT(numberAt(table, row, "cpu_s"), 0);
+  }
+  const Ran drawn = irk("plot lift_costs.toml");
+  EXPECT_EQ(drawn.status, 0) << drawn.text;
+  const auto figures = folder_.path() / "results" / "report" / "figures";
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(figures)) {
+    if (file.path().extension() == ".svg") names.push_back(file.path().stem().string());
+  }
+  EXPECT_EQ(names, std::vector<std::string>{"lift_costs_work_by"});
+}
+
+// CVODE solves ordinary equations only: those of index 1.
+TEST_F(OwnCommands, ANewStudyOfAConstrainedSceneHasIndexOne) {
+  ASSERT_EQ(irk("new study pendulum").status, 0);
+  const std::string study = read("pendulum_costs.toml");
+  EXPECT_TRUE(containsAll(study, {"scene = \"pendulum\"", "methods = [\"cvode_bdf\"]\nformulation = \"index1\""}))
+      << study;
+  const Ran ran = irk("run pendulum_costs.toml");
+  EXPECT_EQ(ran.status, 0) << ran.text;
+  const Ran none = irk("new study no_such_scene");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(containsAll(none.text, {"no_such_scene"}));
+}
+
 TEST_F(OwnCommands, LoadALibrary) {
   const std::string load = " --load " IRK_SOLVERS "/euler_ode.so";
   EXPECT_TRUE(containsAll(irk("list methods" + load).text, {"euler_ode", "Implicit Euler, extrapolated"}));
