@@ -125,7 +125,7 @@ std::string conditionText(const Part& part) {
       return fmt::format("{} {:.4g} % {}", part.confirmed.low_open ? "above" : "at least", 100 * part.confirmed.low,
                          countedText(part));
     case Statistic::kExistence:
-      return fmt::format("one case {}{}", rangeText(part.clean), unit);
+      return fmt::format("one case is {}{}", rangeText(part.clean), unit);
     case Statistic::kReport:
       return "";
   }
@@ -134,7 +134,7 @@ std::string conditionText(const Part& part) {
 
 std::string countedText(const Part& part) {
   if (part.statistic != Statistic::kShare) return "";
-  return fmt::format("of the cases {}{}", rangeText(part.clean), part.unit.empty() ? "" : " " + part.unit);
+  return fmt::format("of the cases are {}{}", rangeText(part.clean), part.unit.empty() ? "" : " " + part.unit);
 }
 
 std::string sampleText(const Judgement& judgement) {

@@ -64,7 +64,7 @@ std::string doubtsOf(const HostCalibrations& host, double fastest) {
   const double share = static_cast<double>(slow) / static_cast<double>(host.seconds.size());
   std::string text;
   if (share >= kMostSlow) {
-    text = fmt::format("{:.0f} % of the calibrations on {} take more than {} times its least one, up to {:.2f}",
+    text = fmt::format("{:.0f} % of the calibrations on {} took more than {} times the shortest one, up to {:.2f}",
                        100 * share, host.host, kDrift, most / least);
   }
   const double slower = median(host.seconds) / fastest;

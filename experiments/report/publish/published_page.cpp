@@ -94,7 +94,9 @@ std::string claimsText(const ReportOptions& options) {
     for (std::size_t i = 0; i < findings.parts.size(); ++i) {
       const auto& part = findings.claim->parts[i];
       const auto number = [&](claims::Setting setting) {
-        return claims::explainedNumber(part, findings.parts[i][static_cast<std::size_t>(setting)].judged);
+        const auto& judged = findings.parts[i][static_cast<std::size_t>(setting)].judged;
+        const bool lacks = judged.cases > 0 && judged.verdict == claims::Verdict::kNotMeasurable;
+        return claims::explainedNumber(part, judged) + (lacks ? " (" + judged.reason + ")" : "");
       };
       const std::string condition = claims::conditionText(part);
       numbers.push_back(escapeHtml(fmt::format("{}: {} / {}{}", part.name, number(claims::Setting::kPaper),
@@ -145,8 +147,11 @@ std::string originText(const PublishedRuns& runs) {
     add(what, valuesOf(table, column));
   }
   std::string text = markdownTable(origin);
-  for (const auto& doubt : runs.doubts) text += fmt::format("**Times are doubtful**, {}.\n\n", doubt);
-  return text;
+  if (runs.doubts.empty()) return text;
+  text +=
+      "The processor's speed varied while times were measured. A fixed computation is timed about once a second:\n\n";
+  for (const auto& doubt : runs.doubts) text += fmt::format("- {}\n", doubt);
+  return text + "\n";
 }
 
 std::string tablesText() {
@@ -176,6 +181,11 @@ std::string publishedPage(const ReportOptions& options, const std::vector<Answer
       "Made by `irk publish` from the tables of `irk paper{0}` and `irk run audit{0}`; nothing is written by hand. CPU "
       "times are those of one machine.\n\n",
       quick ? " --quick" : "");
+  if (!runs.doubts.empty()) {
+    text +=
+        "**CPU times of some studies are doubtful**: the processor's speed varied while they were measured "
+        "([Origin](#origin)). Ratios near 1 mean little.\n\n";
+  }
   for (const auto& answer : answers) text += answerText(answer, figures, quick);
   text += claimsText(options);
   text += "## The scenes\n\n[problems](../../problems/README.md) says what each of them is.\n\n" +

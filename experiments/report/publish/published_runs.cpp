@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "experiments/analyses/results.h"
 #include "experiments/base/failure.h"
@@ -18,6 +19,13 @@ constexpr const char* kFromHead[] = {"code", "version", "commit", "date", "compi
 std::string entryOf(const TableHead& head, std::string_view name) {
   const auto at = std::ranges::find(head, name, &TableHead::value_type::first);
   return at == head.end() ? "" : at->second;
+}
+
+// A library's file without its folder, which tells nothing on another machine: `SUNDIALS 7.5.0,
+// /opt/lib/libsundials.so`.
+std::string withoutFolders(const std::string& text) {
+  static const std::regex folder("(^|[ ,])/([^ ,;/]+/)*");
+  return std::regex_replace(text, folder, "$1");
 }
 
 // `4c24df039347 (48 rows)`, as the store writes it: the code and its runs; empty if several programs made the rows.
@@ -69,7 +77,7 @@ PublishedRuns publishedRuns(const ReportOptions& options, const std::vector<std:
     if (const auto drift = timesDrift(file); !drift.empty()) runs.doubts.push_back(fmt::format("{}: {}", study, drift));
     TableRow row{study, made.rows, made.code};
     for (const auto* name : kFromHead) {
-      if (std::string_view(name) != "code") row.push_back(entryOf(head, name));
+      if (std::string_view(name) != "code") row.push_back(withoutFolders(entryOf(head, name)));
     }
     const std::string date = entryOf(head, "date");
     last_date = std::max(last_date, date.substr(date.rfind(' ') + 1));

@@ -95,8 +95,8 @@ TEST(Claims, Conditions) {
   one.statistic = Statistic::kShare;
   one.confirmed = {.low = 0.95};
   one.clean = {.high = 4};
-  EXPECT_EQ(conditionText(one), "at least 95 % of the cases at most 4 times");
-  EXPECT_EQ(countedText(one), "of the cases at most 4 times");
+  EXPECT_EQ(conditionText(one), "at least 95 % of the cases are at most 4 times");
+  EXPECT_EQ(countedText(one), "of the cases are at most 4 times");
   EXPECT_EQ(countedText(part()), "") << "a median counts nothing";
 }
 

@@ -134,8 +134,8 @@ TEST_F(ReportPage, SaysWhereTheClockRateChanged) {
   const auto file = results_ / "scenes" / "runs.csv";
   Table runs = readTable(file);
   runs.head.emplace_back("times drift",
-                         "37 % of the calibrations on a take more than 1.1 times its least one, up to 1.27; "
-                         "20 % of the calibrations on b take more than 1.1 times its least one, up to 1.87");
+                         "37 % of the calibrations on a took more than 1.1 times the shortest one, up to 1.27; "
+                         "20 % of the calibrations on b took more than 1.1 times the shortest one, up to 1.87");
   writeTable(file, runs);
   const std::string html = page();
   const auto at = html.find("the clock rate of this machine changed by a factor of up to 1.87");
