@@ -31,7 +31,7 @@ class UnstableRest {
   // An integration begins.
   void begin() {
     found_ = false;
-    looked_ = false;
+    looked_ = rested_ = false;
     steps_ = 0;
     rate_ = 0;
     last_.resize(0);
@@ -45,7 +45,9 @@ class UnstableRest {
     // Eigenvalues of N components, once in N steps, cost less than the steps. A start may lie near a rest, which steps
     // may leave as soon as they no longer resolve the growth.
     const bool too_long = rate_ * step.h > 1 && rate_ * looked_with_ <= 1;
-    if (++steps_ < rates.size() && looked_ && !too_long && !all_rest && !follows_) return;
+    const bool comes_to_rest = all_rest && !rested_;
+    rested_ = all_rest;
+    if (++steps_ < rates.size() && looked_ && !too_long && !comes_to_rest) return;
     looked_ = true;
     steps_ = 0;
     looked_with_ = step.h;
@@ -94,6 +96,7 @@ class UnstableRest {
   // Of the eigenvalues that were computed last in this integration: whether there are any, the steps since then, the
   // length of the step then, and the rate of growth.
   bool looked_ = false;
+  bool rested_ = false;  // nothing moved in the step before
   Index steps_ = 0;
   double looked_with_ = 0, rate_ = 0;
   double limit_ = std::numeric_limits<double>::infinity(), t_ = 0;
