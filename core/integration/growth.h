@@ -21,9 +21,9 @@ class Growth {
   /// 50 components: eigenvalues of N components cost about 10 N^3 operations, with their vectors 25 N^3 (Golub & Van
   /// Loan, Matrix Computations, 7.5.6). Allocates.
   double rate(const State<Real>& state, double time);
-  /// The same among those whose motion rests: its distance from the rest of the linearized motion is below the
-  /// `tolerance` of each component of u, v, x. With the eigenvector q and the left one p the distance is
-  /// q (p f) / (lambda p q), f = (v, a, k).
+  /// The same among those whose motion rests, for the state of the last call of `rate`, which was not 0: its distance
+  /// from the rest of the linearized motion is below the `tolerance` of each component of u, v, x. With the eigenvector
+  /// q and the left one p the distance is q (p f) / (lambda p q), f = (v, a, k).
   double restingRate(const State<Real>& state, double time, const Vec<double>& tolerance);
 
  private:

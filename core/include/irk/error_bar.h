@@ -41,10 +41,9 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// Components that are below their absolute tolerance for whole steps of the second integration need not have a correct
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
 /// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each component
-/// that it finds small and, by its estimate, not accurate beside its size; it controls it relative to its size in
-/// either norm, and is done as usual only if that
-/// fails or takes more steps than kBarEffort over the unknowns, with a `remark`: a fast motion far below the tolerance
-/// would need any number.
+/// that it finds small and, by its estimate, not accurate beside its size, and controls it relative to its size in
+/// either norm. If that fails or takes more steps than kBarEffort over the unknowns, it is done as usual, with a
+/// `remark`: a fast motion far below the tolerance could need any number of steps.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
 /// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss

@@ -36,8 +36,9 @@ struct StepRecord {
   /// The solution inside the step, valid during the callback only. Null if Monitor::inside is false, and if it is not
   /// known: for integrators of other libraries, and for methods with two stages at one time.
   InsideStep<Real>* inside = nullptr;
-  /// The estimated errors of u, v and x, valid during the callback only. Null with other estimates than `embedded`, and
-  /// in formulations that have other unknowns than the scene.
+  /// The estimated errors of u, v and x, up to their signs, valid during the callback only; in a step that ends at a
+  /// located switch those of the step before it was shortened. Null with other estimates than `embedded`, and in
+  /// formulations that have other unknowns than the scene.
   const State<Real>* errors = nullptr;
 };
 

@@ -178,28 +178,23 @@ TEST(ErrorBarOfSmallComponents, DoesNotTakeZerosForSmallComponents) {
   EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
 }
 
-/// An oscillator u'' = -u, which begins at rest, beside a component x = 1e-9 e^(growth t).
+/// An oscillator u'' = -u, which begins at rest, beside x = 1e-9 e^(0.01 t).
 struct OscillatorBesideGrowth {
-  double growth = 0;
   Sizes sizes() const { return {.nu = 1, .nx = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -p.u[0] - p.a[0];
-    r.x[0] = growth * p.x[0] - p.k[0];
+    r.x[0] = 0.01 * p.x[0] - p.k[0];
   }
 };
 
-// A component that is accurate beside its own size is not small: a velocity that begins with zero, and a component that
-// the steps resolve. One that they damp is.
+// The velocity begins with zero, and the steps resolve x: one integration is enough.
 TEST(ErrorBarOfSmallComponents, DoesNotTakeAccurateOnesForSmall) {
   State<double> start(OscillatorBesideGrowth{}.sizes());
   start.u[0] = 1;
   start.x[0] = 1e-9;
-  const MeasuredRun resolved = measuredRun(OscillatorBesideGrowth{0.01}, start, 20, embedded(1e-4));
-  EXPECT_EQ(resolved.steps, resolved.second.counters.steps_accepted);
-  const MeasuredRun damped = measuredRun(OscillatorBesideGrowth{10}, start, 2, embedded(1e-4));
-  EXPECT_GT(damped.steps, damped.second.counters.steps_accepted);
-  expectCovered(damped.bar.x, damped.first.state.x, Vec<double>{{1e-9 * std::exp(20.0)}}, 1e-4);
+  const MeasuredRun run = measuredRun(OscillatorBesideGrowth{}, start, 20, embedded(1e-4));
+  EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
 }
 
 // The norm weighs errors by the new scale, and by that of the constructor again.

@@ -172,7 +172,9 @@ TEST(Growth, RestsInAModeWhateverTheOthersDo) {
     s.v[0] = 1;
     s.x[0] = 1 + deviation;
     s.w << 0, 100 * std::sin(deviation);
-    return Growth<double>(*system, DerivativeSource::kAutomatic).restingRate(s, 10, Vec<double>::Constant(3, 1e-4));
+    Growth<double> growth(*system, DerivativeSource::kAutomatic);
+    EXPECT_GT(growth.rate(s, 10), 0);
+    return growth.restingRate(s, 10, Vec<double>::Constant(3, 1e-4));
   };
   EXPECT_NEAR(rate(1e-9), 100, 1e-4);
   EXPECT_NEAR(rate(0.9e-4), 100, 1e-4);
