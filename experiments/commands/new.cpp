@@ -13,6 +13,7 @@
 #include "experiments/own/scene_template.h"
 #include "experiments/runs/fields.h"
 #include "experiments/runs/peers/catalogue.h"
+#include "experiments/runs/peers/peer_integrator.h"
 #include "irk/misuse.h"
 #include "irk/scene.h"
 
@@ -72,23 +73,40 @@ std::string methodBlock(std::string_view name, std::string_view methods, std::st
   return fmt::format("\n[[block]]\nname = \"{}\"\nmethods = [{}]\n{}", name, methods, more);
 }
 
-// The blocks of a study of costs. Constraints are of index 2, which not every code can solve; in index 1 they are
-// differentiated twice.
-std::string costBlocks(bool constrained) {
+// Whether an integrator of another library can run the scene in this formulation.
+bool canRun(const PeerEntry& peer, const Scene<double>& scene, Formulation formulation) {
+  RunSpec spec;
+  spec.scene = scene.id;
+  spec.method = peer.id;
+  spec.formulation = formulation;
+  try {
+    PeerIntegrator(peer, scene, spec);
+    return true;
+  } catch (const Misuse&) {
+    return false;
+  }
+}
+
+// The blocks of a study of costs: SUNDIALS in the default formulation, or in index 1 where it can run that only.
+std::string costBlocks(const Scene<double>& scene) {
   std::string text =
       methodBlock("fixed_order", R"("radau_iia_3", "radau_iia_5", "radau_iia_9")", "configuration = \"embedded\"\n");
   text += methodBlock("variable_order", "\"radau_iia\"", "configuration = \"variable\"\n");
-  if (!findPeer("ida_bdf") || !findPeer("cvode_bdf")) return text;
-  if (!constrained) return text + methodBlock("sundials", R"("cvode_bdf", "ida_bdf")", "");
-  text += methodBlock("sundials", "\"ida_bdf\"", "");
-  text += methodBlock("sundials_index1", "\"cvode_bdf\"",
-                      "formulation = \"index1\"              # constraints differentiated twice, for y' = f(t, y)\n");
+  for (const char* id : {"cvode_bdf", "ida_bdf"}) {
+    const PeerEntry* const peer = findPeer(id);
+    const auto runs = [&](Formulation formulation) { return peer && canRun(*peer, scene, formulation); };
+    const std::string quoted = fmt::format("\"{}\"", id);
+    if (runs(RunSpec{}.formulation)) {
+      text += methodBlock(id, quoted, "");
+    } else if (runs(Formulation::kIndex1)) {
+      text += methodBlock(id, quoted, "formulation = \"index1\"              # constraints differentiated twice\n");
+    }
+  }
   return text;
 }
 
 void newStudy(const std::string& scene, std::ostream& out) {
   const std::string id = sceneNamed(scene);
-  const bool constrained = makeScene<double>(id).sizes().constraints > 0;
   const std::filesystem::path path = std::filesystem::path(scene).replace_filename(id + "_costs.toml");
   requireNew(path);
   const std::string named = std::filesystem::path(scene).filename().string();
@@ -107,7 +125,9 @@ time_limit = 10                       # seconds of one run
 # Each block is one sweep: all combinations of its lists.
 )",
                                  id, path.string(), named);
-  text += costBlocks(constrained);
+  const std::string blocks = costBlocks(makeScene<double>(id));
+  const bool index1 = blocks.find("index1") != blocks.npos;
+  text += blocks;
   text += fmt::format(R"(
 [[figure]]                            # all blocks in one panel, a curve for each method
 script = "work_by"
@@ -116,7 +136,7 @@ cases = "{0}"
 title = "{0}: CPU time over the error"
 caption = "radau_iia chooses its order; the others have a fixed method.{1}"
 )",
-                      id, constrained ? " cvode_bdf solves the equations in index 1, the others in index 2." : "");
+                      id, index1 ? " cvode_bdf solves the equations in index 1, the others in index 2." : "");
   write(path, text);
   fmt::print(out, "{0}: a study of costs: irk run {0}, then irk plot {0}\n", path.string());
 }

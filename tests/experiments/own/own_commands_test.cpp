@@ -91,14 +91,24 @@ TEST_F(OwnCommands, ANewStudyRunsAndDrawsOneFigure) {
   EXPECT_EQ(names, std::vector<std::string>{"lift_costs_work_by"});
 }
 
-// CVODE solves ordinary equations only: those of index 1.
-TEST_F(OwnCommands, ANewStudyOfAConstrainedSceneHasIndexOne) {
+// CVODE solves ordinary equations: on a pendulum those of index 1, of an index 2 without constraints none.
+TEST_F(OwnCommands, ANewStudyHasPeersWhereTheyCanRun) {
   ASSERT_EQ(irk("new study pendulum").status, 0);
   const std::string study = read("pendulum_costs.toml");
-  EXPECT_TRUE(containsAll(study, {"scene = \"pendulum\"", "methods = [\"cvode_bdf\"]\nformulation = \"index1\""}))
+  EXPECT_TRUE(containsAll(study, {"scene = \"pendulum\"", "methods = [\"cvode_bdf\"]\nformulation = \"index1\"",
+                                  "methods = [\"ida_bdf\"]\n\n"}))
       << study;
+  write("pendulum_costs.toml",
+        replaced("pendulum_costs.toml", "1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10", "1e-4, 1e-8"));
   const Ran ran = irk("run pendulum_costs.toml");
   EXPECT_EQ(ran.status, 0) << ran.text;
+  EXPECT_EQ(runs("pendulum_costs").rows.size(), 12U);
+  ASSERT_EQ(irk("new study index2_nonlinear").status, 0);
+  const std::string index2 = read("index2_nonlinear_costs.toml");
+  EXPECT_EQ(index2.find("cvode_bdf"), index2.npos);
+  EXPECT_NE(index2.find("ida_bdf"), index2.npos);
+  ASSERT_EQ(irk("new study index3_nonlinear").status, 0);
+  EXPECT_EQ(read("index3_nonlinear_costs.toml").find("_bdf"), std::string::npos);
   const Ran none = irk("new study no_such_scene");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(containsAll(none.text, {"no_such_scene"}));
