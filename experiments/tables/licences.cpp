@@ -14,7 +14,8 @@ std::string versionText() {
       "(BSD, 3 clauses), fmt "
       "(MIT),\n"
       "  Google Benchmark (Apache 2.0), CLI11 (BSD, 3 clauses), toml++ (MIT), nlohmann/json (MIT), SQLite (public "
-      "domain), libzip (BSD,\n  3 clauses), pugixml (MIT); the explorer's page: d3 (BSD, 3 clauses)",
+      "domain); where it reads FMUs, libzip (BSD,\n  3 clauses) and pugixml (MIT); the explorer's page: d3 (BSD, 3 "
+      "clauses)",
       buildInfo().version, buildInfo().commit);
 #ifdef IRK_HAS_GSL
   text +=

@@ -223,7 +223,8 @@ Answer orderAnswer(const claims::ResultTables& tables) {
   }
   answer.note =
       "✓ 5/5: measured orders that agree with the formula, of all that are measurable; a formula alone: not measured. "
-      "The sentences count the orders of all systems, also of those in no row here. No convergence: the order is "
+      "The sentences count the orders of all systems, also of systems that have no row here. No convergence: the order "
+      "is "
       "zero or less, smaller steps do not improve the component. † a pattern measured for up to 5 stages and "
       "continued, no theorem. Lobatto families begin with s = 2. –: no theory, or the family cannot treat algebraic "
       "unknowns.";
