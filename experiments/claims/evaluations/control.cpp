@@ -38,7 +38,7 @@ std::map<TableRow, std::map<std::string, double>> slopes(const Table& runs, Cost
     for (const auto& [method, its] : methods) {
       if (its.costs.size() < kMinPoints) continue;
       const auto [least, most] = std::minmax_element(its.switches.begin(), its.switches.end());
-      all[place][method] = *least < *most ? fitLine(its.switches, its.costs).slope : std::nan("");
+      if (*least < *most) all[place][method] = fitLine(its.switches, its.costs).slope;
     }
   }
   return all;

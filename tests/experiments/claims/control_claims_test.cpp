@@ -39,12 +39,13 @@ TEST(ControlClaims, CostOfDoubling) {
 
 // --- C8: 3 `bdf` steps per restart beside `radau` of Radau IIA; the smooth part costs BDF nothing and Radau IIA much.
 
-ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "success", double radau = 3) {
+ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "success", double radau = 3,
+                      bool bdf_switches = true) {
   RunTable runs;
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
     for (const char* rtol : {"1e-4", "1e-6", "1e-7", "1e-8"}) {
       for (const int k : {0, 5, 20, 49}) {
-        const auto add = [&](const char* method, double smooth, double each) {
+        const auto add = [&](const char* method, double smooth, double each, bool switches = true) {
           const auto cost = text(smooth + each * k);
           runs.add({{"block", "restarts"},
                     {"scene", kScenes[i]},
@@ -52,14 +53,14 @@ ResultTables restarts(const std::vector<double>& bdf, const char* outcome = "suc
                     {"method", method},
                     {"configuration", "default"},
                     {"outcome", outcome},
-                    {"located_events", std::to_string(k)},
+                    {"located_events", std::to_string(switches ? k : 5)},
                     {"steps_accepted", cost},
                     {"cpu_s", cost},
                     {"residuals", text(0.25 * (smooth + each * k))},
                     {"dual_residuals", text(0.75 * (smooth + each * k))}});
         };
         add("radau_iia_3", 1000, radau);
-        add("cvode_bdf", 1, 3 * bdf[i]);
+        add("cvode_bdf", 1, 3 * bdf[i], bdf_switches);
       }
     }
   }
@@ -76,6 +77,8 @@ TEST(ControlClaims, Restarts) {
     EXPECT_EQ(best(restarts({5, 5, 5}, "success", 0)), kUnknown) << "no ratio to a cost of zero";
     EXPECT_EQ(best(restarts({5, 5, 5}, "success", -0.5)), kUnknown) << "nor to one that falls";
     EXPECT_EQ(verdict(id, restarts({5, 5, 5})), Verdict::kDoesNotApply);
+    const auto equal = finding(id, restarts({5, 5, 5}, "success", 3, false), Setting::kBest);
+    EXPECT_EQ(equal.measured.cases.size(), 0U) << "BDF always has as many switches: it has no slope";
   }
   const auto residuals = finding("C8c", restarts({4, 4, 4}), Setting::kBest);
   EXPECT_EQ(residuals.judged.verdict, Verdict::kReported);
