@@ -37,10 +37,12 @@ auto MovingPoints<Real>::computed(const Scheme<Real>& scheme) const -> Weights {
   const Index s = scheme.s;
   Vec<Real> p(s + 2), integral(s + 1), second(s);
   Weights weights;
+  weights.theta.resize(period_);
   for (auto* of : {&weights.inside, &weights.once, &weights.twice}) of->resize(s, period_);
   const auto& to_stages = scheme.legendre_inverse_transposed;
   for (Index i = 0; i < period_; ++i) {
-    legendre<Real>(Real(place(i)), p);
+    weights.theta[i] = Real(place(i));
+    legendre<Real>(weights.theta[i], p);
     integrateLegendre(p, integral, second);
     weights.inside.col(i).noalias() = to_stages * p.head(s);
     weights.once.col(i).noalias() = to_stages * integral.head(s);
@@ -61,7 +63,8 @@ auto MovingPoints<Real>::block(std::int64_t i, std::int64_t most) const -> Block
   const Index at = i % period_, s = weights_->inside.rows();
   const Index count = std::min<Index>(most, period_ - at);
   const auto columns = [&](const Mat<Real>& of) { return Eigen::Map<const Mat<Real>>(of.col(at).data(), s, count); };
-  return {count, columns(weights_->inside), columns(weights_->once), columns(weights_->twice)};
+  return {count, weights_->theta.data() + at, columns(weights_->inside), columns(weights_->once),
+          columns(weights_->twice)};
 }
 
 template <class Real>
@@ -74,11 +77,12 @@ Defect<Real>::Defect(EmbeddedEstimate<Real>& filter, const Scheme<Real>& scheme,
       looks_at_end_(scheme.c.maxCoeff() < Real(1 - 1e-10)),
       looks_(static_cast<double>(looks)),
       points_(scheme, looks),
-      at_(sizes),
       most_(sizes.n()),
+      t_(kBlock),
       w_(sizes.n(), kBlock),
-      once_(sizes.nu + sizes.nx, kBlock),
-      twice_(sizes.nu, kBlock) {}
+      u_(sizes.nu, kBlock),
+      v_(sizes.nu, kBlock),
+      x_(sizes.nx, kBlock) {}
 
 template <class Real>
 void Defect<Real>::begin(double length) {
@@ -109,27 +113,27 @@ auto Defect<Real>::among(std::int64_t first, std::int64_t count, const State<Rea
   const int threads = filter_.threads();
   const Real* const W = stages.W.data();
   Result largest;
-  at_.d = from.d;
   for (const std::int64_t end = first + count; first < end;) {
     const auto block = points_.block(first, std::min<std::int64_t>(end - first, kBlock));
     productOnThreads(threads, W, n, n, block.inside, w_.data(), n);
-    productOnThreads(threads, W, n, nu, block.twice, twice_.data(), nu);
-    productOnThreads(threads, W, n, nu + nx, block.once, once_.data(), nu + nx);
+    productOnThreads(threads, W, n, nu, block.twice, u_.data(), nu);
+    productOnThreads(threads, W, n, nu, block.once, v_.data(), nu);
+    productOnThreads(threads, W + nu, n, nx, block.once, x_.data(), nx);
     for (Index j = 0; j < block.count; ++j) {
-      const Real theta(points_.place(first + j));
-      at_.t = from.t + theta * h;
-      const auto twice = twice_.col(j), once = once_.col(j);
+      const Real& theta = block.theta[j];
+      t_[j] = from.t + theta * h;
       inParts(threads, nu, [&](Index i, Index k) {
-        const auto part = [i, k](auto& y) { return y.segment(i, k - i); };
-        part(at_.u) = part(from.u) + h * (theta * part(from.v) + h * part(twice));
-        part(at_.v) = part(from.v) + h * part(once);
+        for (; i < k; ++i) {
+          u_(i, j) = from.u[i] + h * (theta * from.v[i] + h * u_(i, j));
+          v_(i, j) = from.v[i] + h * v_(i, j);
+        }
       });
       inParts(threads, nx, [&](Index i, Index k) {
-        at_.x.segment(i, k - i) = from.x.segment(i, k - i) + h * once.segment(nu + i, k - i);
+        for (; i < k; ++i) x_(i, j) = from.x[i] + h * x_(i, j);
       });
-      copyOnThreads(threads, w_.col(j).data(), n, at_.w.data());
-      add(largest, filter_.filtered(at_, h, most_));
     }
+    add(largest, filter_.largestInside({sizes_, t_.data(), u_.data(), v_.data(), x_.data(), w_.data(), from.d.data()},
+                                       block.count, h, most_));
     first += block.count;
   }
   return largest;
@@ -145,13 +149,9 @@ auto Defect<Real>::at(std::int64_t i, const State<Real>& from, const StagePolyno
 template <class Real>
 auto Defect<Real>::atEnd(const State<Real>& end, const Real& t, const Vec<Real>& d, const Vec<Real>& weights,
                          const StagePolynomial<Real>& stages) -> Result {
-  at_.t = t;
-  at_.d = d;
-  at_.u = end.u;
-  at_.v = end.v;
-  at_.x = end.x;
-  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.n(), weights, at_.w.data(), sizes_.n());
-  return filter_.filtered(at_, stages.h, most_);
+  inlinedProduct(stages.W.data(), sizes_.n(), sizes_.n(), weights, w_.data(), sizes_.n());
+  return filter_.largestInside({sizes_, &t, end.u.data(), end.v.data(), end.x.data(), w_.data(), d.data()}, 1, stages.h,
+                               most_);
 }
 
 template <class Real>

@@ -27,15 +27,18 @@ class MovingPoints {
     ConstVec<Real> inside, once, twice;
   };
   Point operator[](std::int64_t i) const;
-  /// The weights at the points from i on, a column each: `most` of them, or fewer at the end of a period.
+  /// The places of the points from i on, and the weights there, a column each: `most` of them, or fewer at the end of a
+  /// period.
   struct Block {
     Index count;
+    const Real* theta;
     Eigen::Map<const Mat<Real>> inside, once, twice;
   };
   Block block(std::int64_t i, std::int64_t most) const;
 
  private:
   struct Weights {
+    Vec<Real> theta;                // period
     Mat<Real> inside, once, twice;  // s x period
   };
   Weights computed(const Scheme<Real>& scheme) const;
@@ -77,7 +80,7 @@ class Defect {
   [[nodiscard]] Result at(std::int64_t i, const State<Real>& from, const StagePolynomial<Real>& stages);
 
  private:
-  static constexpr Index kBlock = 32;  // points whose states are computed together
+  static constexpr Index kBlock = 32;  // points that are looked at together
   Result among(std::int64_t first, std::int64_t count, const State<Real>& from, const StagePolynomial<Real>& stages);
   Result atEnd(const State<Real>& end, const Real& t, const Vec<Real>& d, const Vec<Real>& weights,
                const StagePolynomial<Real>& stages);
@@ -90,9 +93,9 @@ class Defect {
   double length_ = 0;
   std::int64_t next_ = 0;
   MovingPoints<Real> points_;
-  State<Real> at_;
-  Vec<Real> most_;              // the largest residuals of the step's points, n
-  Mat<Real> w_, once_, twice_;  // at the points of a block: K and its integrals of (a, k) and of a
+  Vec<Real> most_;           // the largest residuals of the step's points, n
+  Vec<Real> t_;              // of the points of a block
+  Mat<Real> w_, u_, v_, x_;  // the continuous solution there, a column each; w: K
 };
 
 /// The number of moving points of a step of size h in an integration over `length`, `looks` in all: at least 1, at most

@@ -125,6 +125,7 @@ Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at)
   system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
   if (scaled_) e_.col(0).array() *= scales_.array();
   if (!e_.allFinite()) return Outcome::kNotFinite;
+  if (sizes_.nz == 0) return Outcome::kSuccess;
   const int least = at == EquationsAt::kInside ? 1 : 2;
   const auto& powers = system_.errorPowers().z;
   for (Index i = 0; i < sizes_.nz; ++i) {
@@ -209,12 +210,15 @@ void EmbeddedEstimate<Real>::residualBehind() {
   if (scaled_) predicted_.array() *= scales_.array();
 }
 
+namespace {
+
+// Whether |r_i| is above most_i in any row; raises most to these.
 template <class Real>
-bool EmbeddedEstimate<Real>::raises(Vec<Real>& most) const {
+bool raises(const Mat<Real>& r, Vec<Real>& most) {
   using std::abs;
   bool raised = false;
   for (Index i = 0; i < most.size(); ++i) {
-    const Real size = abs(e_(i, 0));
+    const Real size = abs(r(i, 0));
     if (!(size > most[i])) continue;
     most[i] = size;
     raised = true;
@@ -222,13 +226,34 @@ bool EmbeddedEstimate<Real>::raises(Vec<Real>& most) const {
   return raised;
 }
 
+}  // namespace
+
 template <class Real>
-auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<Real>& most) -> Result {
-  Result result;
+auto EmbeddedEstimate<Real>::largestInside(const StagePoints<Real>& at, Index count, const Real& h, Vec<Real>& most)
+    -> Result {
   if (scaled_) rowScales(system_.rowPowers(), h, scales_);
-  copyOnThreads(threads_, at.w.data(), at.w.size(), defect_.data());
-  result.outcome = evaluateAt(pointAt(at.t, at.u, at), EquationsAt::kInside);
-  if (result.outcome != Outcome::kSuccess || !raises(most)) return result;
+  Result largest;
+  const auto fails = [&](Outcome outcome) {
+    if (largest.outcome == Outcome::kSuccess) largest.outcome = outcome;
+  };
+  for (Index j = 0; j < count; ++j) {
+    const Point<Real> p = at[j];
+    const Outcome outcome = evaluateAt(p, EquationsAt::kInside);
+    if (outcome != Outcome::kSuccess) {
+      fails(outcome);
+    } else if (raises(e_, most)) {
+      const Result one = filteredInside(p, h);
+      fails(one.outcome);
+      largest.error = std::max(largest.error, one.error);
+    }
+  }
+  return largest;
+}
+
+// The error at `p`, whose residual is in e_.
+template <class Real>
+auto EmbeddedEstimate<Real>::filteredInside(const Point<Real>& p, const Real& h) -> Result {
+  Result result;
   slip_.setZero();
   const auto measure = [&] {
     result.outcome = filter(h, beside_);
@@ -239,12 +264,13 @@ auto EmbeddedEstimate<Real>::filtered(const State<Real>& at, const Real& h, Vec<
   };
   measure();
   if (result.outcome != Outcome::kSuccess || result.error <= 1) return result;
-  at_.u = at.u + beside_.u;
-  at_.v = at.v + beside_.v;
-  at_.x = at.x + beside_.x;
-  at_.d = at.d;
+  at_.u = p.u + beside_.u;
+  at_.v = p.v + beside_.v;
+  at_.x = p.x + beside_.x;
   residualBehind();
-  result.outcome = evaluateAt(pointAt(at.t, at_.u, at_), EquationsAt::kInside);
+  const Point<Real> behind{
+      p.t, {at_.u.data(), sizes_.nu}, {at_.v.data(), sizes_.nu}, {at_.x.data(), sizes_.nx}, p.a, p.k, p.z, p.d};
+  result.outcome = evaluateAt(behind, EquationsAt::kInside);
   if (result.outcome == Outcome::kSuccess) measure();
   if (result.outcome != Outcome::kSuccess) return result;
   const double evaluated = result.error;

@@ -43,15 +43,16 @@ class EmbeddedEstimate {
   /// `evaluate` of the same step.
   [[nodiscard]] Result evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q);
 
-  /// The error -h mu (D0 + h mu D1 + h^2 mu^2 D2)^-1 r(at) for a point inside a step of size h, whose (a, k, z) are
-  /// those of the continuous solution: the defect there (core/estimates/defect.h). One above the tolerance is filtered
-  /// a second time, HW II (IV.8.21), so that a transient that the step damps does not count: by the residual behind
-  /// that error, and by the one that the linearization predicts there; the larger one counts. The residual alone would
-  /// be zero where the error leads out of a force that acts in a short range. Counts u, v, x; rows of
-  /// constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at the points before it in this step; a
-  /// point whose residual is larger in no row has the error 0 and is not filtered. That is exact where the filter
-  /// couples no rows; in other systems the parts of an earlier residual may have cancelled in the filter.
-  [[nodiscard]] Result filtered(const State<Real>& at, const Real& h, Vec<Real>& most);
+  /// The largest error -h mu (D0 + h mu D1 + h^2 mu^2 D2)^-1 r of `count` points inside a step of size h, whose
+  /// (a, k, z) are those of the continuous solution: the defect there (core/estimates/defect.h). One above the
+  /// tolerance is filtered a second time, HW II (IV.8.21), so that a transient that the step damps does not count: by
+  /// the residual behind that error, and by the one that the linearization predicts there; the larger one counts. The
+  /// residual alone would be zero where the error leads out of a force that acts in a short range. Counts u, v, x; rows
+  /// of constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at
+  /// the points before these in this step; a point whose residual is larger in no row has the error 0 and is not
+  /// filtered. That is exact where the filter couples no rows; in other systems the parts of an earlier residual may
+  /// have cancelled in the filter.
+  [[nodiscard]] Result largestInside(const StagePoints<Real>& at, Index count, const Real& h, Vec<Real>& most);
 
   /// Allocates what the next evaluation would, where the pattern is known.
   void reserve() {
@@ -81,7 +82,7 @@ class EmbeddedEstimate {
   enum class EquationsAt { kStart, kInside };
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
   Outcome evaluateAt(const Point<Real>& p, EquationsAt at);
-  bool raises(Vec<Real>& most) const;
+  Result filteredInside(const Point<Real>& p, const Real& h);
   Outcome filter(const Real& h, State<Real>& error);
   Outcome solve(const Real& h);
   // Sets `predicted_` to the residual that a linear system has at the point displaced by the error, which e_ gives:
