@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "core/stages/scheme.h"
@@ -15,20 +14,20 @@ template <class Real>
 class SchemeList {
  public:
   /// Throws Misuse as requireTableau.
-  explicit SchemeList(std::vector<Tableau<Real>> tableaus) : tableaus_(std::move(tableaus)), made_(tableaus_.size()) {
-    for (const auto& tableau : tableaus_) requireTableau(tableau);
+  explicit SchemeList(const Methods<Real>& methods) : tableaus_(methods.shared), made_(tableaus_->size()) {
+    for (const auto& tableau : *tableaus_) requireTableau(tableau);
   }
 
-  std::size_t size() const { return tableaus_.size(); }
-  const Tableau<Real>& tableau(std::size_t i) const { return tableaus_[i]; }
+  std::size_t size() const { return tableaus_->size(); }
+  const Tableau<Real>& tableau(std::size_t i) const { return (*tableaus_)[i]; }
   /// The scheme of member i, made in the first call; lives as long as the list.
   const Scheme<Real>& operator[](std::size_t i) const {
-    if (!made_[i]) made_[i] = schemeOf(tableaus_[i]);
+    if (!made_[i]) made_[i] = schemeOf(tableau(i));
     return *made_[i];
   }
 
  private:
-  std::vector<Tableau<Real>> tableaus_;
+  std::shared_ptr<const std::vector<Tableau<Real>>> tableaus_;
   mutable std::vector<std::shared_ptr<const Scheme<Real>>> made_;
 };
 

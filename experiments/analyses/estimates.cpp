@@ -34,7 +34,7 @@ class StepSampler {
 
   const Scene<double>& scene() const { return setup_.scene; }
   const System<double>& system() const { return *setup_.system; }
-  const Tableau<double>& tableau() const { return setup_.methods.members[setup_.methods.start]; }
+  const Tableau<double>& tableau() const { return setup_.methods.members()[setup_.methods.start]; }
 
   /// A sample of the steps that the run takes.
   std::vector<Step> steps() const {

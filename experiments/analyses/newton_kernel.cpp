@@ -57,7 +57,7 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       h_(h),
       differentiator_(*system_, spec.options.derivatives, JacobianTerms::kFull, storageOf(spec.options)),
       at_(1),
-      schemes_(setup.methods.members),
+      schemes_(setup.methods),
       scheme_(schemes_[setup.methods.start]),
       options_(withoutNewJacobians(spec.options)),
       equations_(*system_, scheme_, spec.options.summation, spec.options.threads),

@@ -31,10 +31,9 @@ std::uint64_t tableauHash(const Tableau<double>& tableau) {
 
 std::string hashedCoefficients(const std::string& method, int max_stages, OrderControl order) {
   if (!choosesOrder(order)) return hexText(tableauHash(makeTableau<double>(method)));
+  const Methods<double> methods = makeMethods<double>(method, max_stages, 1);
   std::string all;
-  for (const auto& member : makeMethods<double>(method, max_stages, 1).members) {
-    all += hexText(tableauHash(member));
-  }
+  for (const auto& member : methods.members()) all += hexText(tableauHash(member));
   return hexText(fnv1a(all));
 }
 

@@ -20,10 +20,10 @@ class RungeKutta {
 
   const RunSpec& spec() const { return setup_.spec; }
   const Scene<Real>& scene() const { return setup_.scene; }
-  const std::string& family() const { return setup_.methods.members.front().family; }
+  const std::string& family() const { return setup_.methods.members().front().family; }
   /// 0 for a family: the order controller chooses the stages.
   Index stages() const { return isFamily(setup_.spec.method) ? 0 : setup_.stages(); }
-  Integrator<Real> newIntegrator() const { return setUp(setup_.spec, setup_.scene).integrator(); }
+  Integrator<Real> newIntegrator() const { return irk::newIntegrator(setup_.spec, setup_.scene); }
   Solution<Real> integrate(const State<Real>& start, const Real& t_end, const Monitor<Real>& monitor) {
     auto solution = integrator_.integrate(start, t_end, monitor);
     if (solution.detail.find('[') != std::string::npos) {

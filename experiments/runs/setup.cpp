@@ -70,7 +70,7 @@ std::string Setup<Real>::advice(Outcome outcome) const {
     return dependent ? "constraints 'independent' leaves out those that follow from the others" : "";
   }
   const bool steps_shrink = outcome == Outcome::kStepTooSmall || outcome == Outcome::kStalled;
-  const Tableau<Real>& method = methods.members[methods.start];
+  const Tableau<Real>& method = methods.members()[methods.start];
   const Vec<Real> beside = method.A.row(method.stages() - 1).transpose() - method.b;
   constexpr double kRoundOff = 1e-12;  // of coefficients with 15 digits
   const bool at_end = static_cast<double>(Real(beside.cwiseAbs().maxCoeff())) < kRoundOff;
@@ -133,6 +133,12 @@ Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
 }
 
 template <class Real>
+Integrator<Real> newIntegrator(const RunSpec& spec, const Scene<Real>& scene) {
+  const auto system = scene.system(systemOptions(spec, scene));
+  return {system, methodsOf<Real>(spec), spec.options, toleranceScale(scene, spec, system->sizes())};
+}
+
+template <class Real>
 State<Real> startWith(const Scene<Real>& scene, const Settings& components) {
   State<Real> start = scene.start;
   const Index nu = start.u.size(), known = 2 * nu + start.x.size();
@@ -155,6 +161,8 @@ template State<double> startWith(const Scene<double>&, const Settings&);
 template State<BigFloat> startWith(const Scene<BigFloat>&, const Settings&);
 template Setup<double> setUp(RunSpec, Scene<double>);
 template Setup<BigFloat> setUp(RunSpec, Scene<BigFloat>);
+template Integrator<double> newIntegrator(const RunSpec&, const Scene<double>&);
+template Integrator<BigFloat> newIntegrator(const RunSpec&, const Scene<BigFloat>&);
 template std::string Setup<double>::advice(Outcome) const;
 template std::string Setup<BigFloat>::advice(Outcome) const;
 template Setup<double> makeSetup(const RunSpec&);

@@ -19,7 +19,7 @@ struct Setup {
   Methods<Real> methods;
   Vec<double> scale;  ///< of the system's components u, v, x, z
 
-  Index stages() const { return methods.members[methods.start].stages(); }
+  Index stages() const { return methods.members()[methods.start].stages(); }
   /// Throws Misuse for combinations that cannot work.
   Integrator<Real> integrator() const { return integrator(methods, spec.options); }
   /// What is said beside the detail of a run with this outcome: which constraints are left out, which formulation
@@ -41,6 +41,11 @@ std::string oneThreadText(const RunSpec& spec);
 /// makeSetup.
 template <class Real>
 Setup<Real> setUp(RunSpec spec, Scene<Real> scene);
+
+/// The integrator of a resolved spec and its scene with all that a program makes for it, system and methods: what the
+/// time of a whole call begins with. Throws Misuse as makeSetup.
+template <class Real>
+Integrator<Real> newIntegrator(const RunSpec& spec, const Scene<Real>& scene);
 
 /// The magnitudes that an integrator multiplies atol by: those of the system's components (systemScale), replaced where
 /// the spec's `atol_of` names a component. Throws Misuse for a name that the scene does not have.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/base/kept.h"
 #include "core/base/text.h"
 #include "irk/misuse.h"
 #include "tableaus/catalogue/constants.h"
@@ -144,11 +145,23 @@ Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   least = std::min(least, given);
   const Index most = std::max(max_stages, given);
   const Index start = member ? given : std::clamp(first, least, most);
-  std::vector<Tableau<Real>> members;
-  for (Index s = least; s <= most; ++s) {
-    members.push_back(makeTableau<Real>(fmt::format("{}_{}", family.id, s)));
-  }
-  return {std::move(members), static_cast<std::size_t>(start - least)};
+  const auto all = [&] {
+    std::vector<Tableau<Real>> members;
+    for (Index s = least; s <= most; ++s) {
+      members.push_back(makeTableau<Real>(fmt::format("{}_{}", family.id, s)));
+    }
+    return Methods<Real>(std::move(members), 0);
+  };
+  Methods<Real> methods = [&] {
+    if constexpr (std::is_same_v<Real, double>) {
+      static Kept<Methods<double>> kept;  // integrators of variable order ask for the same ones again and again
+      return Methods<double>(*kept.of(fmt::format("{} {} {}", family.id, least, most), all));
+    } else {
+      return all();
+    }
+  }();
+  methods.start = static_cast<std::size_t>(start - least);
+  return methods;
 }
 
 namespace {

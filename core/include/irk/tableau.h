@@ -1,6 +1,7 @@
 // The Butcher tableau of an implicit Runge-Kutta method.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,14 +45,18 @@ struct Tableau {
 };
 
 /// The methods of an integration: one method or, for variable order, members of one family by ascending number of
-/// stages. Integrator checks them.
+/// stages. Integrator checks them. Copies share the tableaus.
 template <class Real>
 struct Methods {
-  std::vector<Tableau<Real>> members;
-  std::size_t start = 0;  ///< index of the member that takes the first step
+  std::shared_ptr<const std::vector<Tableau<Real>>> shared;  ///< the tableaus; not null
+  std::size_t start = 0;                                     ///< index of the member that takes the first step
 
-  Methods(Tableau<Real> one) : members{std::move(one)} {}  // NOLINT: one method is a method
-  Methods(std::vector<Tableau<Real>> all, std::size_t first) : members(std::move(all)), start(first) {}
+  Methods(Tableau<Real> one)
+      : Methods(std::vector<Tableau<Real>>{std::move(one)}, 0) {}  // NOLINT: one method is a method
+  Methods(std::vector<Tableau<Real>> all, std::size_t first)
+      : shared(std::make_shared<const std::vector<Tableau<Real>>>(std::move(all))), start(first) {}
+
+  const std::vector<Tableau<Real>>& members() const { return *shared; }
 };
 
 }  // namespace irk

@@ -125,15 +125,15 @@ TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
 TEST(VariableOrder, LadderOfAFamily) {
   const auto methods = makeMethods<double>("radau_iia_4", 9, 5);
   std::vector<Index> stages;
-  for (const auto& tableau : methods.members) stages.push_back(tableau.stages());
+  for (const auto& tableau : methods.members()) stages.push_back(tableau.stages());
   EXPECT_EQ(stages, (std::vector<Index>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  EXPECT_EQ(methods.members[methods.start].stages(), 4);
+  EXPECT_EQ(methods.members()[methods.start].stages(), 4);
 }
 
 TEST(VariableOrder, AFamilyBeginsWithTheStagesAskedFor) {
   const auto startOf = [](std::string_view id, Index most, Index first) {
     const auto methods = makeMethods<double>(id, most, first);
-    return methods.members[methods.start].stages();
+    return methods.members()[methods.start].stages();
   };
   EXPECT_EQ(startOf("radau_iia", 13, 6), 6);
   EXPECT_EQ(startOf("radau_iia", 5, 9), 5) << "no more than max_stages";
