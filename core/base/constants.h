@@ -65,7 +65,7 @@ inline constexpr Constant kMemberStrictness{
 // The error bar.
 inline constexpr Constant kBarStricter{
     0.1, "bar.tolerance",
-    "The second integration has this part of the tolerance; a bar above its inverse is measured again by a third one.",
+    "The second integration has this part of the tolerance; a bar above this part of its component is measured again.",
     "522 successes on foreign systems: 16 errors above their bar; with 10 times the tolerance 25"};
 inline constexpr Constant kBarLeast{50, "bar.least", "It is not below so many eps.", "steps end in round-off there"};
 inline constexpr Constant kBarOfFixedSteps{1e-10, "bar.fixed", "The tolerance for a run with fixed steps.",

@@ -25,8 +25,8 @@ Vec<double> distances(const auto& a, const auto& b) {
 
 Vec<double> unknown(Index n) { return Vec<double>::Constant(n, std::numeric_limits<double>::quiet_NaN()); }
 
-// Sets `tolerances` and `worst`. The smaller one of the two results' values counts: one that is wrong and large would
-// seem to be within 1 / rtol tolerances of its own.
+// Sets `tolerances`, `worst` and `beside`. The smaller one of the two results' values counts: one that is wrong and
+// large would seem to be within 1 / rtol tolerances of its own.
 template <class Real>
 void weigh(const State<Real>& first, const State<Real>& second, const Tolerances& t, const Vec<double>& scale,
            ErrorBar& bar) {
@@ -35,7 +35,8 @@ void weigh(const State<Real>& first, const State<Real>& second, const Tolerances
     for (Index i = 0; i < errors.size(); ++i, ++place) {
       const double magnitude = place < scale.size() ? scale[place] : 1;
       const auto size_of = [i](const auto& values) { return std::abs(static_cast<double>(values[i])); };
-      const double size = errors[i] / t.of(magnitude, std::fmin(size_of(y), size_of(other)));
+      const double smaller = std::fmin(size_of(y), size_of(other)), size = errors[i] / t.of(magnitude, smaller);
+      if (size * kBarStricter > 1) bar.beside = std::fmax(bar.beside, errors[i] / smaller);
       // A component that is not finite is the worst one.
       if (bar.worst < 0 || size > bar.tolerances || std::isnan(size)) {
         bar.tolerances = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
@@ -232,13 +233,14 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   return controlledBar<Real>(second, {result, start, tolerances, scale, monitor, t_end}, second_result);
 }
 
-bool asksForStricter(const ErrorBar& bar) { return bar.known() && bar.tolerances * kBarStricter > 1; }
+bool asksForStricter(const ErrorBar& bar) { return bar.known() && bar.beside > kBarStricter; }
 
 ErrorBar larger(const ErrorBar& a, const ErrorBar& b) {
   ErrorBar result = a.tolerances < b.tolerances ? b : a;  // has `tolerances`, `worst` and `remark` of the larger one
   result.u = a.u.cwiseMax(b.u);
   result.v = a.v.cwiseMax(b.v);
   result.x = a.x.cwiseMax(b.x);
+  result.beside = std::fmax(a.beside, b.beside);
   result.z = a.z.cwiseMax(b.z);
   result.t = std::fmax(a.t, b.t);
   if (result.remark.empty()) result.remark = a.remark + b.remark;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tests/core/error_bar_run.h"
+#include "tests/core/problems.h"
 
 namespace irk::test {
 namespace {
@@ -246,16 +247,29 @@ TEST(ErrorBar, LargestOfASuccess) {
   EXPECT_NEAR(largestErrorBar({1e-13, 1e-12}), 2000, 1e-9);
 }
 
-// The second integration has a tenth of the tolerance: from 10 tolerances on it may be wrong by one itself.
-TEST(ErrorBar, AsksForAStricterIntegrationIfItIsLarge) {
-  ErrorBar bar;
-  EXPECT_FALSE(asksForStricter(bar)) << "nothing is measured";
-  bar.tolerances = 9.9;
-  EXPECT_FALSE(asksForStricter(bar));
-  bar.tolerances = 10.1;
-  EXPECT_TRUE(asksForStricter(bar));
-  bar.problem = "failed";
-  EXPECT_FALSE(asksForStricter(bar));
+// Whether the bar of a result of y' = -y at t = 1 that is wrong by `error` is measured again.
+bool isMeasuredAgain(double error, double tolerance) {
+  State<double> start(Decay{}.sizes()), result(Decay{}.sizes());
+  start.x[0] = 1;
+  result.t = 1;
+  result.x[0] = std::exp(-1) + error;
+  const auto options = adaptive(tolerance);
+  auto second = secondOf(makeSystem<double>(Decay{}), options);
+  Solution<double> other;
+  return asksForStricter(measureErrorBar(result, second, start, options.tolerances, {}, other));
+}
+
+// Only errors that have grown to the size of the motion leave the second integration as wrong as the first.
+TEST(ErrorBar, AsksForAStricterIntegrationIfItIsLargeBesideTheMotion) {
+  EXPECT_FALSE(isMeasuredAgain(1e-4, 1e-6)) << "70 tolerances";
+  EXPECT_FALSE(isMeasuredAgain(0.03, 1e-3)) << "a twelfth of the component";
+  EXPECT_TRUE(isMeasuredAgain(0.05, 1e-3)) << "a seventh";
+  EXPECT_FALSE(isMeasuredAgain(0.05, 1e-2)) << "4 tolerances";
+  EXPECT_TRUE(isMeasuredAgain(0.2, 1e-2));
+  ErrorBar unknown;
+  unknown.beside = 1;
+  unknown.problem = "failed";
+  EXPECT_FALSE(asksForStricter(unknown));
 }
 
 TEST(ErrorBar, TheLargerOneIsTakenComponentByComponent) {

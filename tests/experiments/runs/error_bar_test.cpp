@@ -106,6 +106,49 @@ TEST(RunErrorBar, NamesTheComponentAtWhichTheSecondIntegrationFails) {
   EXPECT_EQ(bar.problem.find('['), std::string::npos) << bar.problem;
 }
 
+// The attempts of the run that measures `spec` with these tolerances.
+std::int64_t attemptsWith(const RunSpec& spec, const Tolerances& tolerances) {
+  RunSpec second = independentSpec(spec);
+  second.options.tolerances = tolerances;
+  const Counters& counters = execute(second).counters;
+  return counters.steps_accepted + counters.steps_rejected_error + counters.steps_rejected_newton;
+}
+
+// A limit of steps that the run with a tenth of the tolerance exceeds, and the one with the run's own does not.
+TEST(RunErrorBar, IsMeasuredAtTheRunsToleranceWhereAStricterRunFails) {
+  auto spec = barSpec("scene=kepler;rtol=1e-6;atol=1e-6;method=gauss_5;t_end=10");
+  const std::int64_t strict = attemptsWith(spec, independentSpec(spec).options.tolerances);
+  const std::int64_t own = attemptsWith(spec, spec.options.tolerances);
+  ASSERT_GT(strict, own + 10);
+  spec.options.step.max_steps = (own + strict) / 2;
+  State<double> end = sceneOf<double>(spec).exact(10);
+  end.u[0] += 1e-4;
+  Solution<double> solution{Outcome::kSuccess, "", end, {}};
+  const MeasuringWatch watch{[] { return Outcome::kSuccess; }, {}};
+  const auto bar = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
+  ASSERT_EQ(bar.problem, "");
+  EXPECT_NE(bar.remark.find("own tolerance"), std::string::npos) << bar.remark;
+  EXPECT_NE(bar.remark.find("max_steps"), std::string::npos) << bar.remark;
+  EXPECT_NEAR(bar.u[0], 1e-4, 1e-5);
+  spec.options.step.max_steps = own / 2;
+  const auto unknown = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
+  EXPECT_NE(unknown.problem.find("max_steps"), std::string::npos) << unknown.problem;
+  EXPECT_TRUE(std::isnan(unknown.tolerances));
+}
+
+TEST(IndependentSpec, IsOfAnotherFamily) {
+  auto spec = barSpec("scene=kepler;method=radau_iia_5");
+  for (const char* method : {"radau_iia_5", "radau_iia", "./mine.txt", "mine.txt", "cvode_bdf"}) {
+    spec.method = method;
+    EXPECT_EQ(independentSpec(spec).method, "lobatto_iiic") << method;
+  }
+  for (const char* method :
+       {"radau_ia_5", "gauss_3", "lobatto_iiic_4", "lobatto_iiics_4", "lobatto_iiia", "lobatto_iiid_9"}) {
+    spec.method = method;
+    EXPECT_EQ(independentSpec(spec).method, "radau_iia") << method;
+  }
+}
+
 TEST(IndependentSpec, DiffersInAllThatAMethodIsMadeOf) {
   const auto spec = barSpec(
       "scene=slider_crank;configuration=paper;method=radau_iia_5;formulation=index3;rtol=1e-4;atol=1e-5;"
