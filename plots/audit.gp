@@ -6,8 +6,6 @@ load system('dirname "'.ARG0.'"')."/style.gp"
 file = data.'/audit_summary.csv'
 parts = "right failed wrong set_aside"
 part_titles = "'right' 'honest failure' 'wrong success' 'set aside'"
-part_colours = "0x9CCFE7 0xE6C27A 0xC8102E 0xC9C9C9"
-colour(k) = int(word(part_colours, k))
 share(k) = k == 4 ? (column("ill_conditioned") + column("unjudged")) / column("runs") \
                   : column(word(parts, k)) / column("runs")
 below(k) = k == 1 ? 0 : sum [j = 1 : k - 1] share(j)
@@ -51,23 +49,23 @@ do for [format in formats] {
     set tmargin at screen top(g); set bmargin at screen top(g) - n[g] * row_height / height
     set yrange [n[g] + 0.5 : 0.5]
     set label 1 word(titles, g) at first 0.5, graph 1 offset 0,0.7 center textcolor rgb ink
-    set label 2 'wrong' at first 1.03, graph 1 offset 0,0.7 left textcolor rgb colour(3)
+    set label 2 'wrong' at first 1.03, graph 1 offset 0,0.7 left textcolor rgb judgedColour(3)
     plot for [k = 1 : 4] y = 0, file using (at(g) > 0 ? below(k) : NaN):(y):(below(k)):(upTo(k)):(y - 0.38):(y + 0.38) \
-        with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
+        with boxxyerror fs solid noborder lc rgb judgedColour(k) notitle, \
       y = 0, file using (at(g) > 0 ? below(3) : NaN):(y):(below(3)):(upTo(3)):(y - 0.38):(y + 0.38) \
-        with boxxyerror fs solid noborder lc rgb colour(3) notitle, \
+        with boxxyerror fs solid noborder lc rgb judgedColour(3) notitle, \
       y = 0, file using (at(g) > 0 ? -0.4 : NaN):(y):(only(g, strcol("group"))) \
         with labels right noenhanced textcolor rgb ink notitle, \
       y = 0, file using (at(g) > 0 ? -0.03 : NaN):(y):(only(g, size(0))) \
         with labels right textcolor rgb 0x777777 font ',11' notitle, \
       y = 0, file using (at(g) > 0 ? 1.03 : NaN):(y):(only(g, column("wrong") > 0 ? number(0) : '')) \
-        with labels left textcolor rgb colour(3) notitle, \
+        with labels left textcolor rgb judgedColour(3) notitle, \
       y = 0, file using (at(g) > 0 ? 1.03 : NaN):(y):(only(g, column("wrong") > 0 ? '' : '0')) \
         with labels left textcolor rgb 0x777777 notitle
     unset label
   }
   eval legend(0.05)
-  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb colour(k) title word(part_titles, k)
+  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb judgedColour(k) title word(part_titles, k)
   unset multiplot
   unset output
   eval framed

@@ -20,7 +20,7 @@ promised(d) = is("treatment", 'default') || is("treatment", 'locate') || is("tre
 right(d) = is("judgement", 'right') ? ratio(0) : NaN
 wrong(promise) = is("judgement", 'wrong') && promised(0) == promise ? ratio(0) : NaN
 bar(t) = (1000 * t + 1e-9) / t
-good = 0x0072B2; bad = 0xC8102E
+good = 0x0072B2; bad = judgedColour(3)
 
 # Count before axes are set, because their ranges would exclude the counts.
 array successes[4]; array wrongs[4]; array broken[4]

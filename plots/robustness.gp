@@ -9,8 +9,6 @@ if (!exists("integrators")) integrators = ''
 file = data.'/robustness.csv'
 parts = "right failed wrong unjudged"
 part_titles = "'right' 'honest failure' 'success, but error above 1000 tolerances (number: how many)' 'not judged'"
-part_colours = "0x9CCFE7 0xE6C27A 0xC8102E 0xC9C9C9"
-colour(k) = int(word(part_colours, k))
 single(d) = strcol("tolerance") ne 'all' && position(collections, strcol("collection"))
 undefine N_*
 stats file using (single(0) ? (collect(strcol("integrator")), 1) : NaN) name "N" nooutput
@@ -40,7 +38,7 @@ number_place = many + 0.75
 # The number of wrong successes stands in their part of the bar, or where that is too narrow beside it.
 isWide(d) = share(3) >= 0.2
 numberPlace(d) = isWide(0) ? below(3) + share(3) / 2 : below(3) > 0.2 ? below(3) - 0.12 : upTo(3) + 0.12
-numberColour(d) = isWide(0) ? 0xFFFFFF : colour(3)
+numberColour(d) = isWide(0) ? 0xFFFFFF : judgedColour(3)
 # A row's number of runs is that of its largest tolerance.
 isFirst(i) = line(i) > 0 && place(0) == 1
 levelText(x) = sprintf("10^{%d}", floor(x + 0.5))
@@ -72,7 +70,7 @@ do for [format in formats] {
     set title (word(shown, i) eq 'all' ? 'all scenes' : word(shown, i)) offset 0,-0.6 noenhanced
     set xlabel when(i > panels - columns, 'tolerance') offset 0,0.3
     plot for [k = 1 : 4] file using (left(i, below(k))):(line(i)):(left(i, below(k))):(left(i, upTo(k))):(line(i) - 0.38):(line(i) + 0.38) \
-        with boxxyerror fs solid noborder lc rgb colour(k) notitle, \
+        with boxxyerror fs solid noborder lc rgb judgedColour(k) notitle, \
       file using (column("wrong") > 0 ? left(i, numberPlace(0)) : outside):(line(i)):(sprintf("%d", column("wrong"))):(numberColour(0)) \
         with labels textcolor rgb variable font ',11' notitle, \
       file using (isFirst(i) ? number_place : outside):(line(i)):(sprintf("%d", column("runs"))) \
@@ -80,7 +78,7 @@ do for [format in formats] {
   }
   eval legend(legend_height / height)
   set key maxrows legend_rows
-  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb colour(k) title word(part_titles, k)
+  plot 2 notitle, for [k = 1 : 4] keyentry with boxes fs solid noborder lc rgb judgedColour(k) title word(part_titles, k)
   unset multiplot
   unset output
   eval framed

@@ -101,6 +101,10 @@ stageDash(s) = s <= 3 ? 5 - s : 1   # 1, 2, 3: dash-dot, dots, dashes; more: sol
 failure_colour = 0xB00020
 failure_point = 2
 
+# --- Judged runs: right, honest failure, wrong, not judged.
+judged_colours = "0x9CCFE7 0xE6C27A 0xC8102E 0xC9C9C9"
+judgedColour(k) = int(word(judged_colours, k))
+
 # --- Rows. In `using`:  has("scene", scene) ? column("h") : NaN ; an empty value accepts every row. A cell without a
 # value is empty or nan; column() cannot detect it, because `missing NaN` drops the row first.
 absent(name) = strcol(name) eq "" || strcol(name) eq 'nan'

@@ -65,7 +65,8 @@ inline constexpr Constant kMemberStrictness{
 // The error bar.
 inline constexpr Constant kBarStricter{
     0.1, "bar.tolerance",
-    "The second integration has this part of the tolerance; a bar above this part of its component is measured again.",
+    "The second integration has this part of the tolerance; a bar above this part of the motion, and above the inverse "
+    "in tolerances, is measured again.",
     "522 successes on foreign systems: 16 errors above their bar; with 10 times the tolerance 25"};
 inline constexpr Constant kBarLeast{50, "bar.least", "It is not below so many eps.", "steps end in round-off there"};
 inline constexpr Constant kBarOfFixedSteps{1e-10, "bar.fixed", "The tolerance for a run with fixed steps.",
@@ -126,7 +127,8 @@ inline constexpr Constant kTimeTolerance{1e-5, "switch.time",
                                          "chosen: far below the error of a step"};
 inline constexpr Constant kSwitchRounds{
     20, "switch.rounds",
-    "So many switches without time between them, or repetitions of a step in 'iterate', are chattering.",
+    "So many switches without time between them, or repetitions of a step in 'iterate', are chattering; after so many "
+    "earlier switches found in one step it is tried shorter.",
     "chosen: two are usual, then the modes repeat in a circle"};
 
 // Starts, constraints, ends.

@@ -52,13 +52,6 @@ auto MovingPoints<Real>::computed(const Scheme<Real>& scheme) const -> Weights {
 }
 
 template <class Real>
-auto MovingPoints<Real>::operator[](std::int64_t i) const -> Point {
-  const Index at = i % period_, s = weights_->inside.rows();
-  const auto column = [&](const Mat<Real>& of) { return ConstVec<Real>(of.col(at).data(), s); };
-  return {Real(place(i)), column(weights_->inside), column(weights_->once), column(weights_->twice)};
-}
-
-template <class Real>
 auto MovingPoints<Real>::block(std::int64_t i, std::int64_t most) const -> Block {
   const Index at = i % period_, s = weights_->inside.rows();
   const Index count = std::min<Index>(most, period_ - at);

@@ -20,15 +20,9 @@ class MovingPoints {
   double place(std::int64_t i) const;
   std::int64_t period() const { return period_; }
 
-  /// The point i: its place, and the weights of the stages in their polynomial K for (a, k, z), in the integral of K
-  /// from the step's start, and in its second integral.
-  struct Point {
-    Real theta;
-    ConstVec<Real> inside, once, twice;
-  };
-  Point operator[](std::int64_t i) const;
-  /// The places of the points from i on, and the weights there, a column each: `most` of them, or fewer at the end of a
-  /// period.
+  /// The points from i on, `most` of them, or fewer at the end of a period: their places, and the weights of the stages
+  /// in their polynomial K for (a, k, z), in the integral of K from the step's start, and in its second integral, a
+  /// column for each point.
   struct Block {
     Index count;
     const Real* theta;
@@ -94,7 +88,7 @@ class Defect {
   std::int64_t next_ = 0;
   MovingPoints<Real> points_;
   Vec<Real> most_;           // the largest residuals of the step's points, n
-  Vec<Real> t_;              // of the points of a block
+  Vec<Real> t_;              // times of the points of a block
   Mat<Real> w_, u_, v_, x_;  // the continuous solution there, a column each; w: K
 };
 

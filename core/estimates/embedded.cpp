@@ -21,8 +21,8 @@ StageSolverSetup<Real> filterSetup(const System<Real>& system, const Real& mu) {
 // Whether the first stage is at the step's start, where it has the same input as the start itself.
 template <class Real>
 bool beginsAtStart(const Vec<Real>& c) {
-  constexpr double kNone = 1e-10;
-  return std::abs(static_cast<double>(c[0])) < kNone;
+  constexpr double kSamePoint = 1e-10;
+  return std::abs(static_cast<double>(c[0])) < kSamePoint;
 }
 
 // Weights, at the step's start, of the polynomial through all stages but the first.
@@ -115,11 +115,11 @@ Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   return outcome;
 }
 
-// Sets e_ to the residual at `p`, without what is no error of the step's end. Inside, these are the rows of constraints
-// of index 2 and 3, which the continuous solution satisfies at the stages only. At the start it is g(u0) of index 3:
-// what Newton's method leaves in it, delta, is delta / h^2 in the accelerations across the constraint and would be
-// delta / h in the estimate of velocities, at any step size. Without this row the estimate is that of the motion along
-// the constraint.
+// Sets e_ to the residual at `p`; rows that say nothing about the error at the step's end are set to zero. Inside,
+// these are the rows of constraints of index 2 and 3, which the continuous solution satisfies at the stages only. At
+// the start it is g(u0) of index 3. Newton's method leaves a residual delta in it, which changes the accelerations
+// normal to the constraint by delta / h^2 and would appear in the estimate of velocities as delta / h, however small h
+// is. Without this row the estimate is that of the motion along the constraint.
 template <class Real>
 Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at) {
   system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
@@ -212,7 +212,7 @@ void EmbeddedEstimate<Real>::residualBehind() {
 
 namespace {
 
-// Whether |r_i| is above most_i in any row; raises most to these.
+// Raises most_i to |r_i| where that is larger; returns whether it was in any row.
 template <class Real>
 bool raises(const Mat<Real>& r, Vec<Real>& most) {
   using std::abs;

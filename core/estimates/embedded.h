@@ -48,10 +48,9 @@ class EmbeddedEstimate {
   /// tolerance is filtered a second time, HW II (IV.8.21), so that a transient that the step damps does not count: by
   /// the residual behind that error, and by the one that the linearization predicts there; the larger one counts. The
   /// residual alone would be zero where the error leads out of a force that acts in a short range. Counts u, v, x; rows
-  /// of constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at
-  /// the points before these in this step; a point whose residual is larger in no row has the error 0 and is not
-  /// filtered. That is exact where the filter couples no rows; in other systems the parts of an earlier residual may
-  /// have cancelled in the filter.
+  /// of constraints of index 2 and 3 are left out. `most`, n: the largest |r_i| at the points before these in this
+  /// step; a point whose residual is larger in no row has the error 0 and is not filtered. That is exact where the
+  /// filter couples no rows; in other systems the parts of an earlier residual may have cancelled in the filter.
   [[nodiscard]] Result largestInside(const StagePoints<Real>& at, Index count, const Real& h, Vec<Real>& most);
 
   /// Allocates what the next evaluation would, where the pattern is known.

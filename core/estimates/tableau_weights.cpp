@@ -17,7 +17,7 @@ namespace {
 /// For stiff components e is far above the step's error, and without bound where A has an explicit first stage. It is
 /// filtered as in HW II (IV.8.20), by (I - h mu J)^-1 with mu as in EmbeddedEstimate; for the residual r that is
 ///   (D0 + h mu D1 + h^2 mu^2 D2) w = D0 (e_v, e_x, 0) / (h mu) - D2 e_u,
-///   (e_v, e_x) = h mu w, and h mu e_v is added to e_u.
+///   E_v = h mu w_v, E_x = h mu w_x, E_u = e_u + h mu E_v: the filtered errors.
 /// The right-hand side is the change of r from the step's start to (u0 - e_u, v0, x0; w0 + (e_v, e_x, 0) / (h mu)). It
 /// leaves out g of index 3, as EmbeddedEstimate does. z does not count: the weights say nothing of it.
 template <class Real>
@@ -64,7 +64,7 @@ class TableauWeights final : public StepAttempt<Real> {
         zero_(sizes),
         ones_(Vec<double>::Ones(sizes.components())) {}
 
-  // mu of the stages that are solved for.
+  // mu of the implicit stages only; an explicit first stage is left out.
   static Real filterWeight(const Scheme<Real>& scheme) {
     Tableau<Real> implicit = scheme.tableau;
     implicit.A = scheme.implicitA();

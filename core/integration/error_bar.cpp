@@ -25,18 +25,18 @@ Vec<double> distances(const auto& a, const auto& b) {
 
 Vec<double> unknown(Index n) { return Vec<double>::Constant(n, std::numeric_limits<double>::quiet_NaN()); }
 
-// Sets `tolerances`, `worst` and `beside`. The smaller one of the two results' values counts: one that is wrong and
-// large would seem to be within 1 / rtol tolerances of its own.
+// Sets `tolerances`, `worst` and `part_of_motion`. The smaller one of the two results' values counts: one that is wrong
+// and large would seem to be within 1 / rtol tolerances of its own. `motion`: of u, v, x.
 template <class Real>
 void weigh(const State<Real>& first, const State<Real>& second, const Tolerances& t, const Vec<double>& scale,
-           ErrorBar& bar) {
+           const Vec<double>& motion, ErrorBar& bar) {
   Index place = 0;
   const auto add = [&](const Vec<double>& errors, const auto& y, const auto& other) {
     for (Index i = 0; i < errors.size(); ++i, ++place) {
       const double magnitude = place < scale.size() ? scale[place] : 1;
       const auto size_of = [i](const auto& values) { return std::abs(static_cast<double>(values[i])); };
-      const double smaller = std::fmin(size_of(y), size_of(other)), size = errors[i] / t.of(magnitude, smaller);
-      if (size * kBarStricter > 1) bar.beside = std::fmax(bar.beside, errors[i] / smaller);
+      const double size = errors[i] / t.of(magnitude, std::fmin(size_of(y), size_of(other)));
+      if (size * kBarStricter > 1) bar.part_of_motion = std::fmax(bar.part_of_motion, errors[i] / motion[place]);
       // A component that is not finite is the worst one.
       if (bar.worst < 0 || size > bar.tolerances || std::isnan(size)) {
         bar.tolerances = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
@@ -51,6 +51,25 @@ void weigh(const State<Real>& first, const State<Real>& second, const Tolerances
 }
 
 }  // namespace
+
+// How far u, v and x go from their start.
+template <class Real>
+struct Motion {
+  const State<Real>& start;
+  Vec<double> farthest = Vec<double>::Zero(2 * start.u.size() + start.x.size());
+
+  void follow(const State<Real>& s) {
+    Index place = 0;
+    const auto add = [&](const auto& y, const auto& from) {
+      for (Index i = 0; i < y.size(); ++i, ++place) {
+        farthest[place] = std::fmax(farthest[place], std::abs(static_cast<double>(Real(y[i] - from[i]))));
+      }
+    };
+    add(s.u, start.u);
+    add(s.v, start.v);
+    add(s.x, start.x);
+  }
+};
 
 // What errors in the times of located switches may have changed in u, v and x, all in all.
 template <class Real>
@@ -126,6 +145,11 @@ ErrorBar unknownBar(const State<Real>& result, const Solution<Real>& second) {
 template <class Real>
 ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real> watched, Solution<Real>& other) {
   SwitchErrors<Real> switches(of.result);
+  Motion<Real> motion{of.start};
+  watched.accepted = [&motion, look = std::move(watched.accepted)](const StepRecord<Real>& step) {
+    motion.follow(step.state);
+    if (look) look(step);
+  };
   watched.located = [&](const LocatedSwitch<Real>& at) {
     switches.add(at);
     if (of.monitor.located) of.monitor.located(at);
@@ -138,7 +162,7 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   bar.x = distances<Real>(of.result.x, other.state.x) + switches.x;
   bar.z = distances<Real>(of.result.z(), other.state.z());
   if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t)));
-  weigh(of.result, other.state, of.tolerances, of.scale, bar);
+  weigh(of.result, other.state, of.tolerances, of.scale, motion.farthest, bar);
   return bar;
 }
 
@@ -233,14 +257,14 @@ ErrorBar measureErrorBar(const State<Real>& result, Integrator<Real>& second, co
   return controlledBar<Real>(second, {result, start, tolerances, scale, monitor, t_end}, second_result);
 }
 
-bool asksForStricter(const ErrorBar& bar) { return bar.known() && bar.beside > kBarStricter; }
+bool asksForStricter(const ErrorBar& bar) { return bar.known() && bar.part_of_motion > kBarStricter; }
 
 ErrorBar larger(const ErrorBar& a, const ErrorBar& b) {
   ErrorBar result = a.tolerances < b.tolerances ? b : a;  // has `tolerances`, `worst` and `remark` of the larger one
   result.u = a.u.cwiseMax(b.u);
   result.v = a.v.cwiseMax(b.v);
   result.x = a.x.cwiseMax(b.x);
-  result.beside = std::fmax(a.beside, b.beside);
+  result.part_of_motion = std::fmax(a.part_of_motion, b.part_of_motion);
   result.z = a.z.cwiseMax(b.z);
   result.t = std::fmax(a.t, b.t);
   if (result.remark.empty()) result.remark = a.remark + b.remark;

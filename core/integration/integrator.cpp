@@ -312,8 +312,7 @@ class Integrator<Real>::Run {
 template <class Real>
 Integrator<Real>::Integrator(std::shared_ptr<const System<Real>> system, const Methods<Real>& methods,
                              const IntegratorOptions& options, const Vec<double>& scale)
-    : run_(std::make_unique<Run>(std::move(system), SchemeList<Real>(methods), methods.start, options, scale)) {
-}
+    : run_(std::make_unique<Run>(std::move(system), SchemeList<Real>(methods), methods.start, options, scale)) {}
 template <class Real>
 Integrator<Real>::~Integrator() = default;
 template <class Real>

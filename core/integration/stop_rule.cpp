@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMostSwitches = 1'000'000'000;
 
-// NAME:k -> k, and `name` without it; 1 for NAME.
+// Removes `:k` from `name` and returns k; returns 1 if there is none.
 std::int64_t takeCount(std::string& name) {
   const auto colon = name.rfind(':');
   if (colon == name.npos) return 1;
@@ -58,7 +58,7 @@ StopRule<Real>::StopRule(const System<Real>& system, const IntegratorOptions& op
 
 template <class Real>
 void StopRule<Real>::switched(Index i) {
-  // -1: a step has asked for it.
+  // -1: the step itself asked for the change (System::completeStep), no switching function became due.
   if (i >= 0 && waits_for_[static_cast<std::size_t>(i)]) ++come_;
 }
 

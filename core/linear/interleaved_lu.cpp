@@ -13,7 +13,7 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kMaxLanes = 8;
-// One lane alone would not be a vector, for which the compiler contracts other products and sums: other bits.
+// The compiler fuses other products and sums in scalar code than in vectors: with a single lane last bits would differ.
 constexpr std::size_t kMinWidth = 2;
 
 // Calls f with the width of a group as a constant: 2, 4 or 8.
@@ -100,11 +100,11 @@ struct Elimination {
   void divide(std::size_t k, bool fresh) {
     double* const diagonal = x + k * kSize;
     const Array re = In(diagonal), im = In(diagonal + kWidth);
-    const Array size = re.abs() + im.abs(), square = (re * re + im * im).inverse();
+    const Array size = re.abs() + im.abs(), inverse_square = (re * re + im * im).inverse();
     least = least.min(size);
     most = most.max(size);
     sum += size;
-    const Array a = re * square, b = -im * square;
+    const Array a = re * inverse_square, b = -im * inverse_square;
     Out{inverse + k* kSize} = a;
     Out{inverse + k* kSize + kWidth} = b;
     if (first_inverse) first_inverse[k] = a[0];
@@ -131,6 +131,7 @@ InterleavedLu::Group::Group(std::size_t first_, std::size_t lanes_, const Sparse
       inverse_diagonal(static_cast<std::size_t>(analysis.n()) * 2 * width),
       chosen_at(width),
       work(inverse_diagonal.size()) {
+  // Twice the predicted fill, because pivots may change; real and imaginary parts.
   l.reserve(2 * analysis.lowerEntries() * 2 * width);
   u.reserve(2 * analysis.upperEntries() * 2 * width);
 }

@@ -14,9 +14,9 @@ namespace {
 
 // Evaluations of a switching function on the dense output, per root; ten are usual.
 constexpr std::uintmax_t kMaxEvaluations = 200;
-// Solves of a step from which on every second one halves the bracket.
+// After so many solves of a step every second one bisects the bracket.
 constexpr int kSecants = 8;
-// More would not make the bracket smaller.
+// The largest number of solves; further bisections are below round-off.
 template <class Real>
 int mostSolves() {
   const double bits = -std::log2(static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon())));
@@ -151,9 +151,9 @@ struct Bracket {
   Real resolution;
 };
 
-// The size to solve with next: the secant's, where that lies in the bracket. If the root is at the edge, just beyond
-// the last sign change; otherwise, and if the bracket is to be halved, in the middle. Secants converge within four
-// solves, unless g is far from smooth.
+// The size to solve next: `high`, if the secant lies beyond it and no solved step has confirmed it; else the secant's,
+// if it lies in the bracket and this is no bisection; else just beyond `low`, if the root is expected there; else the
+// middle. Secants converge within four solves, unless g is far from smooth.
 template <class Real>
 Real nextSize(const Bracket<Real>& at, const Real& secant, bool beside_low, bool halves) {
   if (!at.due_at_high && secant >= at.high) return at.high;
@@ -162,10 +162,10 @@ Real nextSize(const Bracket<Real>& at, const Real& secant, bool beside_low, bool
   return beside_low && nudge < at.high ? nudge : Real((at.low + at.high) / Real(2));
 }
 
-// Only the dense output has a root where the solved step has g < 0. Where g is nearly zero the switch is a little
-// further on. A step that ended here would leave one so short that what Newton's method leaves spoils it in index 3
-// (see Trajectory), and round-off in general (see LastSteps). Returns how far beyond to look, after having looked
-// `before` beyond in vain; h if the step goes on from here.
+// The dense output has a root here, but the solved step has g < 0. If g is nearly zero, the switch lies a little
+// further on, and a step that ended here would leave too short a rest: Newton's residual spoils it in index 3
+// (Trajectory), round-off in general (LastSteps). Returns the distance beyond the root to try next, after `before` was
+// tried in vain; h if there is no switch and the step goes on.
 template <class Real>
 Real further(const Real& before, const Real& g, const Real& slope, const Real& resolution, const Real& h) {
   if (!(slope > Real(0))) return h;
@@ -173,11 +173,13 @@ Real further(const Real& before, const Real& g, const Real& slope, const Real& r
   return beyond < Real(kNewtonPart.value) * h ? beyond : h;
 }
 
-// How late a state is where a switch is due: g over its slope, up to the resolution of the search, and a digit of t.
+// How late the state is behind the switch: g over its slope, at most the resolution of the search, plus the round-off
+// of t.
 template <class Real>
-Real late(const Real& g, const Real& slope, const Real& least, const Real& t) {
+Real late(const Real& g, const Real& slope, const Real& resolution, const Real& t) {
   using std::abs;
-  return (slope > Real(0) && g > Real(0) ? std::min(Real(g / slope), least) : least) + epsilon<Real>() * abs(t);
+  return (slope > Real(0) && g > Real(0) ? std::min(Real(g / slope), resolution) : resolution) +
+         epsilon<Real>() * abs(t);
 }
 
 }  // namespace
@@ -233,10 +235,10 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (solves > 0 && !other && abs(Real(step - last_step)) > Real(1e-6) * h) {
       slope = (g - last_g) / (step - last_step);
     }
-    const Real lasts = slope > Real(0) ? Real(noise / slope) : Real(0);  // the round-off
-    resolution = least + lasts;
+    const Real round_off = slope > Real(0) ? Real(noise / slope) : Real(0);  // of g, in time
+    resolution = least + round_off;
     result.resolution = static_cast<double>(resolution);
-    result.time_error = static_cast<double>(Real(late(g, slope, least, next.t) + lasts / Real(2)));
+    result.time_error = static_cast<double>(Real(late(g, slope, least, next.t) + round_off / Real(2)));
     if (due >= 0) {
       high = step;
       due_at_high = true;

@@ -39,7 +39,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
     if (step.shortened) {
       step.attempt = at.attempt;
       step.h = at.h;
-      // A shortened step whose error exceeds the tolerance is not accepted (NaN: fixed steps).
+      // Its error exceeds the tolerance (NaN: fixed steps). kNewtonFailed is recoverable: a shorter step is tried.
       if (at.attempt.error > 1) {
         step.outcome = Outcome::kNewtonFailed;
         step.index = -1;

@@ -16,7 +16,7 @@ constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024, kMaxLook
 
 using Options = IntegratorOptions;
 
-// Returns why an option has no effect beside the other options; empty if it has one.
+// Returns the reason why an option has no effect beside the others; empty if it has an effect.
 using Unused = std::string_view (*)(const Options&);
 
 OptionField axis(auto member, std::string meaning, Unused unused = nullptr) {
@@ -31,7 +31,7 @@ OptionField number(std::string name, auto member, const Range& range, std::strin
   return field;
 }
 
-// Texts of runs separate fields by ';'.
+// In the text of a run ';' separates fields: the name of a switch must not contain it.
 OptionField stopField() {
   return {.name = "stop_at",
           .meaning = "The integration ends as a success right behind this switch, or behind the k-th of this name.",
@@ -163,7 +163,7 @@ std::span<const OptionField> optionFields() {
 #undef IRK_MEMBER
 
 void validate(const IntegratorOptions& o) {
-  IntegratorOptions known;  // only a known id can be set
+  IntegratorOptions known;  // setting an unknown id in it throws
   for (const auto& field : optionFields()) {
     if (field.isNumeric()) requireInRange(field.name, field.number(o), field.range);
     if (field.kind == FieldKind::kAxis) field.set(known, field.get(o));

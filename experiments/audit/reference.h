@@ -39,11 +39,11 @@ struct Answer {
 
 /// The exact state, with the growth of errors of its closed form and without any run, infinite where there is no
 /// solution; or the state of the reference files, if these know all of u, v, x at t_end. Otherwise the state
-/// on which two strict runs of different families agree (radau_iia_7, lobatto_iiic_6; index 2, switches located,
-/// small steps). If the scene switches, a third run that leaves the switches to its error estimate must follow the
-/// same history. All options are given explicitly, so that changed defaults change no answer. If double precision does
-/// not suffice, two runs in 50 digits decide for small systems without switches. Unless the state is exact, the
-/// perturbed starts are integrated, too. After an interrupt the answer has the source `interrupted`.
+/// on which two strict runs of different families agree (Radau IIA and Lobatto IIIC of variable order; index 2,
+/// switches located, small steps). If the scene switches, a third run that leaves the switches to its error estimate
+/// must follow the same history. All options are given explicitly, so that changed defaults change no answer. If double
+/// precision does not suffice, two runs in 50 digits decide for small systems without switches. Unless the state is
+/// exact, the perturbed starts are integrated, too. After an interrupt the answer has the source `interrupted`.
 Answer answerOf(const Question& question, const std::atomic<bool>* stop);
 
 inline constexpr const char* kInterruptedSource = "interrupted";

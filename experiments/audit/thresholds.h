@@ -13,7 +13,8 @@
 //                 error is at least 1e-12 and ten accuracies of the reference. Asked: a median of 0.5 to 2 by
 //                 configuration and by collection of scenes, and 90 % in 0.1 to 10.
 //   cost          CPU time of the integrations that measure over that of the run. Asked: a median of at most 1.3, for
-//                 variable order 1.1. Since 2026-11-28 it has the time of the third integration of large bars.
+//                 variable order 1.1. Since 2026-11-28 it has the time of the third integration of large bars, and of
+//                 a second one with the run's tolerance where the strict one fails.
 //   false alarms  runs to the end whose true error in u, v and x is below 100 tolerances and that end as anything but
 //                 success, over all runs with such an error. Asked: at most 0.2 %.
 //                 Changed on 2026-11-26, after the first draws: a component's tolerance is atol scale + rtol |ref|, as

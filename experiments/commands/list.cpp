@@ -22,7 +22,7 @@ void listMethods(std::ostream& out) {
     fmt::print(out, "{}_S  {}, order {}, S = {} .. {}\n", family.id, family.title, family.order, family.min_stages,
                kMaxStages);
   }
-  out << "or the path of a tableau file\npeers, with their own step control:\n";
+  out << "or the path of a tableau file\nintegrators of other libraries, with their own step control:\n";
   for (const auto& peer : peerCatalogue()) fmt::print(out, "{:<12} {}\n", peer.id, peer.title);
 }
 

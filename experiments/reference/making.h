@@ -40,9 +40,9 @@ struct MakingWatch {
 
 /// For each question the values of all components and outputs at its t_end on which the four runs agree. The questions
 /// (at least one) differ in t_end only and have ascending ones: each run is one integration through all of them. With
-/// 50 digits: radau_iia_16 and lobatto_iiic_16 as in `irk reference`; in double: radau_iia_7 and lobatto_iiic_6 with
-/// small steps. Switches are located; index 2. Double is used where the scene has no 50 digits or too many unknowns for
-/// them, and from the time on at which the runs in 50 digits fail or take too long; runs in 50 digits that
+/// 50 digits: radau_iia_16 and lobatto_iiic_16 as in `irk reference`; in double: Radau IIA and Lobatto IIIC of variable
+/// order with small steps. Switches are located; index 2. Double is used where the scene has no 50 digits or too many
+/// unknowns for them, and from the time on at which the runs in 50 digits fail or take too long; runs in 50 digits that
 /// disagree are not followed by others. Exceptions become `problem`.
 std::vector<ComputedReference> makeReferences(const std::vector<ReferenceQuestion>& questions,
                                               const ReferenceLimits& limits, const MakingWatch& watch);

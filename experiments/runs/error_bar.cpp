@@ -34,14 +34,19 @@ double relative(const Vec<double>& errors, const auto& y, const Vec<double>& sca
   return largest;
 }
 
-// Radau IIA takes the fewest steps. Its own methods are measured by Lobatto IIIC, and so are tableaus from files, which
-// may have its nodes.
+// `gauss` of `gauss_3`; `id` itself without a number of stages.
+std::string familyOf(const std::string& id) {
+  const std::size_t underscore = id.rfind('_');
+  const bool numbered = underscore != std::string::npos && underscore + 1 < id.size() &&
+                        id.find_first_not_of("0123456789", underscore + 1) == std::string::npos;
+  return numbered ? id.substr(0, underscore) : id;
+}
+
+// Radau IIA needs fewer steps than Lobatto IIIC, which measures its methods, and all that may have its nodes: tableaus
+// from files, solvers of other libraries.
 std::string otherFamily(const std::string& method) {
-  const auto& families = familyCatalogue();
-  const bool is_other = std::any_of(families.begin(), families.end(), [&](const FamilyEntry& family) {
-    return family.id != "radau_iia" && method.starts_with(family.id);
-  });
-  return is_other ? "radau_iia" : "lobatto_iiic";
+  const std::string family = familyOf(method);
+  return isFamily(family) && family != "radau_iia" ? "radau_iia" : "lobatto_iiic";
 }
 
 }  // namespace
@@ -110,33 +115,36 @@ Measurement<Real> measuredBy(const RunSpec& measuring, const RunSpec& spec, cons
   return {std::move(bar), std::move(second.state), threadSeconds() - began};
 }
 
-// The same by `second`, which could not be integrated, with the run's own tolerance. If that fails, too, the bar tells
-// why the stricter one did.
+// The same by `second` with the run's own tolerance, after the stricter integration `failed`. The result stays the
+// better one.
 template <class Real>
-void measureLessStrictly(RunSpec second, const RunSpec& spec, const Scene<Real>& scene, const State<Real>& result,
-                         const MeasuringWatch& watch, Measurement<Real>& of) {
+Measurement<Real> measuredLessStrictly(RunSpec second, const RunSpec& spec, const Scene<Real>& scene,
+                                       const State<Real>& result, const MeasuringWatch& watch,
+                                       Measurement<Real> failed) {
   second.options.tolerances = spec.options.tolerances;
   second.atol_of = spec.atol_of;
   Measurement<Real> again = measuredBy(second, spec, scene, result, watch);
-  again.cpu_s += of.cpu_s;
-  if (!again.bar.known()) {
-    of.cpu_s = again.cpu_s;
-    return;
-  }
-  again.bar.remark = "measured at the run's own tolerance: with a tenth of it, " + of.bar.problem;
-  of = std::move(again);
+  failed.cpu_s += again.cpu_s;
+  if (!again.bar.known()) return failed;
+  const std::string lacks = again.bar.remark.empty() ? "" : "; " + again.bar.remark;
+  again.bar.remark = "measured at the run's own tolerance: with a stricter one, " + failed.bar.problem + lacks;
+  return {std::move(again.bar), result, failed.cpu_s};
 }
 
-// The same by independentSpec, and once more where that fails or if the bar asks for it, then by that of the second
-// run.
+bool differ(const Tolerances& a, const Tolerances& b) { return a.rtol != b.rtol || a.atol != b.atol; }
+
+// The same by independentSpec. If that fails, by the same with the run's own tolerance; if the bar asks for it, once
+// more by independentSpec of the second run.
 template <class Real>
 Measurement<Real> measured(const RunSpec& spec, const Scene<Real>& scene, const State<Real>& result,
                            const MeasuringWatch& watch) {
   const RunSpec second = independentSpec(spec);
   Measurement<Real> of = measuredBy(second, spec, scene, result, watch);
   if (hasFixedSteps(spec.options.step)) return of;
-  if (!of.bar.known() && watch.interrupt() == Outcome::kSuccess) {
-    measureLessStrictly(second, spec, scene, result, watch, of);
+  if (!of.bar.known()) {
+    const bool goes_on = watch.interrupt() == Outcome::kSuccess;
+    if (!goes_on || !differ(second.options.tolerances, spec.options.tolerances)) return of;
+    return measuredLessStrictly(second, spec, scene, result, watch, std::move(of));
   }
   if (!asksForStricter(of.bar)) return of;
   Measurement<Real> again = measuredBy(independentSpec(second), spec, scene, result, watch);

@@ -28,8 +28,8 @@ struct RunErrorBar {
 };
 
 /// The run that measures the error of a run with this resolved spec: Radau IIA, or Lobatto IIIC if the run's method is
-/// one of Radau IIA or may be, with variable order, index 2, switches located (or smooth, if the run's are), and
-/// independentOptions. It is the maker of all independent runs.
+/// one of Radau IIA, from a file or of another library, with variable order, index 2, switches located (or smooth, if
+/// the run's are), and independentOptions. It is the maker of all independent runs.
 RunSpec independentSpec(const RunSpec& spec);
 
 /// Families of methods whose runs are independent of each other.
@@ -52,7 +52,7 @@ struct MeasuringWatch {
 /// independentSpec, with the run's scene; does nothing unless it is a success and the spec asks for it. If that
 /// integration fails, the same one with the run's own tolerance measures it. A bar that asksForStricter is measured
 /// again by independentSpec of the second run. With ErrorBarUse::kRefined the solution takes the state of the strictest
-/// integration that succeeds. Real: double or BigFloat, as the spec's scalar.
+/// integration that succeeds, if it is stricter than the run. Real: double or BigFloat, as the spec's scalar.
 template <class Real>
 RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solution<Real>& solution,
                              const MeasuringWatch& watch);

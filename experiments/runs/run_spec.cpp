@@ -32,7 +32,7 @@ constexpr Named<ErrorBarUse> kErrorBarUses[] = {
     {ErrorBarUse::kNone, "none", "one integration only"},
     {ErrorBarUse::kMeasured, "measured",
      "a second integration, by another family with a tenth of the tolerance, gives an error bar (study files: true)"},
-    {ErrorBarUse::kRefined, "refined", "the same, and the result is that of the second integration"}};
+    {ErrorBarUse::kRefined, "refined", "the same, and the result is that of the strictest integration"}};
 
 template <class Axis>
 Axis valueOf(std::string_view id) {

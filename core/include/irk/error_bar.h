@@ -17,8 +17,10 @@ struct ErrorBar {
   double tolerances = std::numeric_limits<double>::quiet_NaN();
   /// |t - second t| of a run that ends at a switch (stop_at); NaN of others.
   double t = std::numeric_limits<double>::quiet_NaN();
-  double beside = 0;    ///< the largest |e_i| / |y_i| among the components of (u, v, x) with a bar above 10 tolerances
-  Index worst = -1;     ///< the component of (u, v, x) with the largest of them
+  Index worst = -1;  ///< the component of (u, v, x) with the largest error in tolerances
+  /// The largest |e_i| over the distance of y_i from its start, the largest one of the second integration, among the
+  /// components of (u, v, x) whose |e_i| is above 10 tolerances; 0 if there are none.
+  double part_of_motion = 0;
   std::string problem;  ///< why the bar is unknown, in one line; empty if it is known
   std::string remark;   ///< what a known bar may not show, in one line; empty if there is nothing to say
 
@@ -29,7 +31,7 @@ struct ErrorBar {
 /// tolerance (but at least 50 epsilon of Real), variable order with the embedded estimate, and full Jacobians of dual
 /// numbers; what the user says of the system and the machine stays: norm, storage, threads, limits of steps. A run with
 /// fixed steps is measured with the tolerance 1e-10. Independent of the run are then the method (take another family:
-/// Radau IIA, which needs the fewest steps, or Lobatto IIIC for a run of Radau IIA), its nodes, its steps and its
+/// Radau IIA, or Lobatto IIIC, which needs more steps, for a run of Radau IIA), its nodes, its steps and its
 /// estimate; common are the equations, the formulation and the treatment of switches.
 template <class Real>
 IntegratorOptions independentOptions(const IntegratorOptions& first);
@@ -50,7 +52,7 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
 /// second integration fails, the bar is unknown and `problem` says why; near round-off one with the tolerance of the
-/// result may succeed, and measures it to about a factor of two. Throws Misuse as Integrator::integrate, and for
+/// result may succeed, whose own error is then in the bar as well. Throws Misuse as Integrator::integrate, and for
 /// a result of other sizes than the start, a scale or tolerances out of range.
 /// A run with the option stop_at has ended at a switch: `second` has the same option, ends at its own time of the
 /// switch, and may go up to t_end, which is then given.
@@ -61,11 +63,11 @@ template <class Real>
                                        const std::optional<Real>& t_end = {});
 
 /// Whether a bar is so large that it has to be measured again, more strictly: above 10 tolerances and above a tenth of
-/// its component. The second integration has a tenth of the tolerance, and a motion that amplifies errors leaves it a
-/// tenth of the first one's error, as long as errors are small beside the motion. Where they have grown to its size the
-/// second result is as wrong as the first. A third integration, with independentOptions of the second one's options and
-/// another family, then gives a second distance; the bar is the `larger` of both. Not for runs with fixed steps, which
-/// are measured with a tolerance of their own. False for an unknown bar.
+/// the motion of its component. The second integration has a tenth of the tolerance, and a motion that amplifies errors
+/// leaves it a tenth of the first one's error, as long as errors are small beside the motion. Where they have grown to
+/// its size the second result is as wrong as the first. A third integration, with independentOptions of the second
+/// one's options and another family, then gives a second distance; the bar is the `larger` of both. Not for runs with
+/// fixed steps, which are measured with a tolerance of their own. False for an unknown bar.
 bool asksForStricter(const ErrorBar& bar);
 
 /// The larger one of two known bars of one result, component by component.

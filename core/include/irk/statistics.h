@@ -20,7 +20,7 @@ struct Counters {
   std::int64_t newton_restarts = 0;
   std::int64_t steps_accepted = 0;
   std::int64_t steps_rejected_error = 0;      ///< attempts with too large an error estimate
-  std::int64_t steps_rejected_newton = 0;     ///< attempts in which Newton's method failed
+  std::int64_t steps_rejected_newton = 0;     ///< attempts in which Newton's method, or the search for a switch, failed
   std::int64_t switches = 0;                  ///< changes of the discrete state
   std::int64_t discontinuous_iterations = 0;  ///< `iterate`: steps repeated with a new discrete state
   std::int64_t located_events = 0;            ///< `locate`: steps that end at a switch

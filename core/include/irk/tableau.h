@@ -51,8 +51,8 @@ struct Methods {
   std::shared_ptr<const std::vector<Tableau<Real>>> shared;  ///< the tableaus; not null
   std::size_t start = 0;                                     ///< index of the member that takes the first step
 
-  Methods(Tableau<Real> one)
-      : Methods(std::vector<Tableau<Real>>{std::move(one)}, 0) {}  // NOLINT: one method is a method
+  Methods(Tableau<Real> one)  // NOLINT: one method is a method
+      : Methods(std::vector<Tableau<Real>>{std::move(one)}, 0) {}
   Methods(std::vector<Tableau<Real>> all, std::size_t first)
       : shared(std::make_shared<const std::vector<Tableau<Real>>>(std::move(all))), start(first) {}
 

@@ -48,7 +48,7 @@ TEST(Constants, NoOthersDecide) {
                                     "kSameEigenvalue",
                                     "kAmplificationLimit",
                                     "kInner",
-                                    "kNone",
+                                    "kSamePoint",
                                     "kUnknown",
                                     "kFirstLook",
                                     "kEigenConditionGrowth",

@@ -130,6 +130,20 @@ TEST(VariableOrder, LadderOfAFamily) {
   EXPECT_EQ(methods.members()[methods.start].stages(), 4);
 }
 
+// The process keeps them.
+TEST(VariableOrder, LaddersAreNotMixedUp) {
+  const auto ends = [](std::string_view id, Index most) {
+    const auto methods = makeMethods<double>(id, most, 1);
+    return methods.members().front().id + " to " + methods.members().back().id;
+  };
+  for (int twice = 0; twice < 2; ++twice) {
+    EXPECT_EQ(ends("radau_ia", 13), "radau_ia_2 to radau_ia_13");
+    EXPECT_EQ(ends("lobatto_iiic", 13), "lobatto_iiic_2 to lobatto_iiic_13");
+    EXPECT_EQ(ends("radau_ia", 5), "radau_ia_2 to radau_ia_5");
+    EXPECT_EQ(ends("radau_ia_1", 13), "radau_ia_1 to radau_ia_13");
+  }
+}
+
 TEST(VariableOrder, AFamilyBeginsWithTheStagesAskedFor) {
   const auto startOf = [](std::string_view id, Index most, Index first) {
     const auto methods = makeMethods<double>(id, most, first);

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "tests/core/error_bar_run.h"
-#include "tests/core/problems.h"
 
 namespace irk::test {
 namespace {
@@ -247,14 +246,24 @@ TEST(ErrorBar, LargestOfASuccess) {
   EXPECT_NEAR(largestErrorBar({1e-13, 1e-12}), 2000, 1e-9);
 }
 
-// Whether the bar of a result of y' = -y at t = 1 that is wrong by `error` is measured again.
-bool isMeasuredAgain(double error, double tolerance) {
-  State<double> start(Decay{}.sizes()), result(Decay{}.sizes());
-  start.x[0] = 1;
+/// y' = -(y - offset) from offset + 1: a motion of 0.632 until t = 1.
+struct DecayAbove {
+  double offset;
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = -(p.x[0] - offset) - p.k[0];
+  }
+};
+
+// Whether the bar of a result at t = 1 that is wrong by `error` is measured again.
+bool isMeasuredAgain(double error, double tolerance, double offset = 0) {
+  State<double> start({.nx = 1}), result({.nx = 1});
+  start.x[0] = offset + 1;
   result.t = 1;
-  result.x[0] = std::exp(-1) + error;
+  result.x[0] = offset + std::exp(-1) + error;
   const auto options = adaptive(tolerance);
-  auto second = secondOf(makeSystem<double>(Decay{}), options);
+  auto second = secondOf(makeSystem<double>(DecayAbove{offset}), options);
   Solution<double> other;
   return asksForStricter(measureErrorBar(result, second, start, options.tolerances, {}, other));
 }
@@ -262,12 +271,15 @@ bool isMeasuredAgain(double error, double tolerance) {
 // Only errors that have grown to the size of the motion leave the second integration as wrong as the first.
 TEST(ErrorBar, AsksForAStricterIntegrationIfItIsLargeBesideTheMotion) {
   EXPECT_FALSE(isMeasuredAgain(1e-4, 1e-6)) << "70 tolerances";
-  EXPECT_FALSE(isMeasuredAgain(0.03, 1e-3)) << "a twelfth of the component";
-  EXPECT_TRUE(isMeasuredAgain(0.05, 1e-3)) << "a seventh";
-  EXPECT_FALSE(isMeasuredAgain(0.05, 1e-2)) << "4 tolerances";
+  EXPECT_FALSE(isMeasuredAgain(0.06, 1e-3)) << "a tenth is 0.063";
+  EXPECT_TRUE(isMeasuredAgain(0.07, 1e-3));
+  EXPECT_FALSE(isMeasuredAgain(0.07, 1e-2)) << "5 tolerances";
   EXPECT_TRUE(isMeasuredAgain(0.2, 1e-2));
+  EXPECT_FALSE(isMeasuredAgain(-std::exp(-1), 0.1)) << "a result of 0 is not infinitely wrong: 4 tolerances";
+  EXPECT_TRUE(isMeasuredAgain(0.5, 1e-5, 1000)) << "the size of the motion, but 0.05 % of its values";
+  EXPECT_FALSE(isMeasuredAgain(0.2, 1e-3, 1000)) << "less than a tolerance";
   ErrorBar unknown;
-  unknown.beside = 1;
+  unknown.part_of_motion = 1;
   unknown.problem = "failed";
   EXPECT_FALSE(asksForStricter(unknown));
 }
@@ -278,14 +290,15 @@ TEST(ErrorBar, TheLargerOneIsTakenComponentByComponent) {
   a.v = Vec<double>::Constant(1, 0.25), b.v = Vec<double>::Constant(1, 0.5);
   a.x = (Vec<double>(2) << 1, 0).finished(), b.x = (Vec<double>(2) << 0, 7).finished();
   a.z = b.z = Vec<double>::Zero(0);
-  a.tolerances = 30, a.worst = 0, a.remark = "of a";
-  b.tolerances = 70, b.worst = 3;
+  a.tolerances = 30, a.part_of_motion = 0.2, a.worst = 0, a.remark = "of a";
+  b.tolerances = 70, b.part_of_motion = 0.1, b.worst = 3;
   for (const ErrorBar& bar : {larger(a, b), larger(b, a)}) {
     EXPECT_EQ(bar.u[0], 3);
     EXPECT_EQ(bar.v[0], 0.5);
     EXPECT_EQ(bar.x[0], 1);
     EXPECT_EQ(bar.x[1], 7);
     EXPECT_EQ(bar.tolerances, 70);
+    EXPECT_EQ(bar.part_of_motion, 0.2);
     EXPECT_EQ(bar.worst, 3);
     EXPECT_EQ(bar.remark, "of a");
   }

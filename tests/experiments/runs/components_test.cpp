@@ -2,6 +2,7 @@
 #include "experiments/runs/fields.h"
 #include "experiments/runs/run.h"
 #include "experiments/runs/run_table.h"
+#include "experiments/runs/setup.h"
 #include "experiments/runs/texts/component_names.h"
 #include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
@@ -25,6 +26,17 @@ TEST(AtolOf, ReplacesAtolTimesTheScaleOfOneComponent) {
   const RunRecord peer = run("scene=kaps;method=cvode_bdf;rtol=1e-9;atol=1e-2");
   const RunRecord tight_peer = run("scene=kaps;method=cvode_bdf;rtol=1e-9;atol=1e-2;atol_of=y1=1e-9 y2=1e-9");
   EXPECT_LT(tight_peer.errors.all, 0.1 * peer.errors.all);
+}
+
+// The integrator of a whole call, which is timed, is that of the run.
+TEST(AtolOf, IsThatOfTheCallThatIsTimed) {
+  const RunSpec spec =
+      resolved(parseSpec("scene=kaps;method=radau_iia_3;rtol=1e-12;atol=1e-2;atol_of=y1=1e-10 y2=1e-10"));
+  const auto scene = sceneOf<double>(spec);
+  auto integrator = newIntegrator(spec, scene);
+  const auto solution = integrator.integrate(scene.start, scene.t_end);
+  EXPECT_EQ(solution.counters.steps_accepted, execute(spec).counters.steps_accepted);
+  EXPECT_GT(solution.counters.steps_accepted, 0);
 }
 
 TEST(AtolOf, MistakesAreNamed) {

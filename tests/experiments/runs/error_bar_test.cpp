@@ -121,12 +121,14 @@ TEST(RunErrorBar, IsMeasuredAtTheRunsToleranceWhereAStricterRunFails) {
   const std::int64_t own = attemptsWith(spec, spec.options.tolerances);
   ASSERT_GT(strict, own + 10);
   spec.options.step.max_steps = (own + strict) / 2;
+  spec.error_bar = ErrorBarUse::kRefined;
   State<double> end = sceneOf<double>(spec).exact(spec.t_end);
   end.u[0] += 1e-4;
   Solution<double> solution{Outcome::kSuccess, "", end, {}};
   const MeasuringWatch watch{[] { return Outcome::kSuccess; }, {}};
   const auto bar = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
   ASSERT_EQ(bar.problem, "");
+  EXPECT_EQ(solution.state.u, end.u) << "no stricter integration gives a better result";
   EXPECT_NE(bar.remark.find("own tolerance"), std::string::npos) << bar.remark;
   EXPECT_NE(bar.remark.find("max_steps"), std::string::npos) << bar.remark;
   EXPECT_NEAR(bar.u[0], 1e-4, 1e-5);
@@ -134,11 +136,35 @@ TEST(RunErrorBar, IsMeasuredAtTheRunsToleranceWhereAStricterRunFails) {
   const auto unknown = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
   EXPECT_NE(unknown.problem.find("max_steps"), std::string::npos) << unknown.problem;
   EXPECT_TRUE(std::isnan(unknown.tolerances));
+  // Steps that are fixed are measured with a tolerance that has nothing to do with theirs.
+  spec.options.step.max_steps = (own + strict) / 2;
+  spec.options.step.control = StepControl::kFixed;
+  spec.options.step.h = 0.01;
+  EXPECT_NE(measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch).problem, "");
+}
+
+// A component's own tolerance is part of the run's.
+TEST(RunErrorBar, IsMeasuredAtTheRunsToleranceOfEachComponent) {
+  auto spec = barSpec("scene=kepler;rtol=1e-6;atol=1e-6;method=radau_iia_5;atol_of=q1=1e-3");
+  RunSpec own = independentSpec(spec);
+  own.options.tolerances = spec.options.tolerances;
+  own.atol_of = spec.atol_of;
+  const RunRecord less_strict = execute(own);
+  ASSERT_TRUE(less_strict.succeeded()) << less_strict.detail;
+  const std::int64_t strict = attemptsWith(spec, independentSpec(spec).options.tolerances);
+  spec.options.step.max_steps = strict - 1;
+  State<double> end = sceneOf<double>(spec).exact(spec.t_end);
+  Solution<double> solution{Outcome::kSuccess, "", end, {}};
+  const auto bar =
+      measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, {[] { return Outcome::kSuccess; }, {}});
+  ASSERT_NE(bar.remark.find("own tolerance"), std::string::npos) << bar.remark << bar.problem;
+  EXPECT_DOUBLE_EQ(bar.u[1], std::abs(end.u[1] - less_strict.u[1]));
 }
 
 TEST(IndependentSpec, IsOfAnotherFamily) {
   auto spec = barSpec("scene=kepler;method=radau_iia_5");
-  for (const char* method : {"radau_iia_5", "radau_iia", "./mine.txt", "mine.txt", "cvode_bdf"}) {
+  for (const char* method : {"radau_iia_5", "radau_iia", "mine.txt", "gauss_2/radau.txt", "lobatto_iiic_mine.txt",
+                             "gaussian", "cvode_bdf"}) {
     spec.method = method;
     EXPECT_EQ(independentSpec(spec).method, "lobatto_iiic") << method;
   }
