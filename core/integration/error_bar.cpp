@@ -50,8 +50,6 @@ void weigh(const State<Real>& first, const State<Real>& second, const Tolerances
   add(bar.x, first.x, second.x);
 }
 
-}  // namespace
-
 // How far u, v and x go from their start.
 template <class Real>
 struct Motion {
@@ -87,6 +85,8 @@ struct SwitchErrors {
     x += distances<Real>(earlier.x, at.behind.x);
   }
 };
+
+}  // namespace
 
 template <class Real>
 IntegratorOptions independentOptions(const IntegratorOptions& first) {
@@ -156,6 +156,7 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   };
   other = second.integrate(of.start, of.t_end ? *of.t_end : of.result.t, watched);
   if (other.outcome != Outcome::kSuccess) return unknownBar(of.result, other);
+  motion.follow(other.state);  // behind a jump at the end
   ErrorBar bar;
   bar.u = distances<Real>(of.result.u, other.state.u) + switches.u;
   bar.v = distances<Real>(of.result.v, other.state.v) + switches.v;

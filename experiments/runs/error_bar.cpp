@@ -85,9 +85,10 @@ namespace {
 
 template <class Real>
 struct Measurement {
-  ErrorBar bar;        // with the scene's names in its texts
-  State<Real> better;  // the result of the integration that measures
-  double cpu_s = 0;    // of this integration
+  ErrorBar bar;         // with the scene's names in its texts
+  State<Real> better;   // the result of the integration that measures
+  double cpu_s = 0;     // of this integration
+  bool refines = true;  // whether `better` is by a stricter integration than the run
 };
 
 // Measures the error of a result of `spec` by the run `measuring`.
@@ -115,8 +116,7 @@ Measurement<Real> measuredBy(const RunSpec& measuring, const RunSpec& spec, cons
   return {std::move(bar), std::move(second.state), threadSeconds() - began};
 }
 
-// The same by `second` with the run's own tolerance, after the stricter integration `failed`. The result stays the
-// better one.
+// The same by `second` with the run's own tolerance, after the stricter integration `failed`.
 template <class Real>
 Measurement<Real> measuredLessStrictly(RunSpec second, const RunSpec& spec, const Scene<Real>& scene,
                                        const State<Real>& result, const MeasuringWatch& watch,
@@ -127,8 +127,10 @@ Measurement<Real> measuredLessStrictly(RunSpec second, const RunSpec& spec, cons
   failed.cpu_s += again.cpu_s;
   if (!again.bar.known()) return failed;
   const std::string lacks = again.bar.remark.empty() ? "" : "; " + again.bar.remark;
-  again.bar.remark = "measured at the run's own tolerance: with a stricter one, " + failed.bar.problem + lacks;
-  return {std::move(again.bar), result, failed.cpu_s};
+  const char* const too_small = asksForStricter(again.bar) ? "; so large a bar may be too small" : "";
+  again.bar.remark =
+      "measured at the run's own tolerance: with a stricter one, " + failed.bar.problem + lacks + too_small;
+  return {std::move(again.bar), std::move(again.better), failed.cpu_s, false};
 }
 
 bool differ(const Tolerances& a, const Tolerances& b) { return a.rtol != b.rtol || a.atol != b.atol; }
@@ -165,7 +167,7 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
                              const MeasuringWatch& watch) {
   if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
   const State<Real>& result = solution.state;
-  const auto [bar, better, cpu_s] = measured(spec, scene, result, watch);
+  const auto [bar, better, cpu_s, refines] = measured(spec, scene, result, watch);
   RunErrorBar told;
   told.u = bar.u, told.v = bar.v, told.x = bar.x, told.z = bar.z;
   told.problem = bar.problem;
@@ -181,12 +183,13 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   told.error = relative(bar.v, better.v, scene.scale, nu, told.error);
   told.error = relative(bar.x, better.x, scene.scale, 2 * nu, told.error);
   told.error_z = relative(bar.z, better.z(), scene.scale, 2 * nu + nx, told.error_z);
-  if (spec.error_bar == ErrorBarUse::kRefined) solution.state = better;
+  told.refined = refines && spec.error_bar == ErrorBarUse::kRefined;
+  if (told.refined) solution.state = better;
   return told;
 }
 
 std::string doubtOf(const RunErrorBar& bar, const RunSpec& spec) {
-  const bool judged = spec.error_bar == ErrorBarUse::kMeasured && !hasFixedSteps(spec.options.step);
+  const bool judged = spec.error_bar != ErrorBarUse::kNone && !bar.refined && !hasFixedSteps(spec.options.step);
   if (!judged || !(bar.tolerances > largestErrorBar(spec.options.tolerances))) return {};
   return fmt::format("the error bar is {:.2g} tolerances, largest in {}", bar.tolerances, bar.component);
 }

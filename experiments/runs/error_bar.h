@@ -24,6 +24,7 @@ struct RunErrorBar {
   std::string remark;   ///< what a known bar may not show, in one line
   /// The one of the two that there is, or nothing.
   const std::string& told() const { return problem.empty() ? remark : problem; }
+  bool refined = false;  ///< whether the result is now that of a stricter integration, which the bar does not judge
   double cpu_s = tolerances;  ///< of the integrations that measure it, without what is made before them
 };
 

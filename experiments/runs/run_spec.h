@@ -56,7 +56,7 @@ std::string_view axisName<ReferenceUse>();
 enum class ErrorBarUse {
   kNone,      ///< it is not
   kMeasured,  ///< the result keeps its values and gets an error bar
-  kRefined,   ///< the result takes the values of the second integration, which are more accurate
+  kRefined,   ///< the result takes the values of the strictest integration, if that is stricter than the run
 };
 template <>
 std::span<const Named<ErrorBarUse>> named<ErrorBarUse>();

@@ -67,7 +67,8 @@ template <class Real>
 /// leaves it a tenth of the first one's error, as long as errors are small beside the motion. Where they have grown to
 /// its size the second result is as wrong as the first. A third integration, with independentOptions of the second
 /// one's options and another family, then gives a second distance; the bar is the `larger` of both. Not for runs with
-/// fixed steps, which are measured with a tolerance of their own. False for an unknown bar.
+/// fixed steps, which are measured with a tolerance of their own, nor where only the result's own tolerance could
+/// measure. A large transient at the start hides what happens in a small motion after it. False for an unknown bar.
 bool asksForStricter(const ErrorBar& bar);
 
 /// The larger one of two known bars of one result, component by component.

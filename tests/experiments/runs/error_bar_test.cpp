@@ -132,6 +132,13 @@ TEST(RunErrorBar, IsMeasuredAtTheRunsToleranceWhereAStricterRunFails) {
   EXPECT_NE(bar.remark.find("own tolerance"), std::string::npos) << bar.remark;
   EXPECT_NE(bar.remark.find("max_steps"), std::string::npos) << bar.remark;
   EXPECT_NEAR(bar.u[0], 1e-4, 1e-5);
+  EXPECT_TRUE(doubtOf(bar, spec).empty());
+  solution.state.u[0] += 1;
+  const auto large = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
+  EXPECT_FALSE(doubtOf(large, spec).empty()) << "no stricter result takes the place of this one";
+  EXPECT_NE(large.remark.find("may be too small"), std::string::npos) << large.remark;
+  EXPECT_GT(large.error, 0.1);
+  solution.state = end;
   spec.options.step.max_steps = own / 2;
   const auto unknown = measuredErrorBar<double>(spec, sceneOf<double>(spec), solution, watch);
   EXPECT_NE(unknown.problem.find("max_steps"), std::string::npos) << unknown.problem;
