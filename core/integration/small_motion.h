@@ -43,9 +43,9 @@ class UnstableRest {
     const bool rests = step.h * std::max(before, fastest_) < 1;
     const bool comes_to_rest = !std::exchange(rests_, rests) && rests;
     // Once in N steps, the eigenvalues of N components take about a tenth of the time of a bar; those of a few take as
-    // long as a step and are computed in every tenth one (judged by 2700 runs of systems with unstable rests: no outcome
-    // differs). A motion that rests takes few, long steps, between which it may become unstable: there it is once in N.
-    // A start may lie near a rest, and steps may leave a rest as soon as they no longer resolve its growth.
+    // long as a step and are computed in every tenth one (judged by 2700 runs of systems with unstable rests: no
+    // outcome differs). A motion that rests takes few, long steps, between which it may become unstable: there it is
+    // once in N. A start may lie near a rest, and steps may leave a rest as soon as they no longer resolve its growth.
     if (--look_in_ > 0 && !(resolved_ * step.h > 1) && !comes_to_rest) return;
     look_in_ = rests ? tolerance_.size() : std::max<Index>(tolerance_.size(), 10);
     const double left = static_cast<double>(Real(t_end_ - step.t));
