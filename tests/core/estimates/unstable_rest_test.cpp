@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/integration/growth.h"
 #include "tests/core/error_bar_run.h"
@@ -134,28 +135,28 @@ TEST(UnstableRest, IsFoundAtTheStartOfFastMotions) {
   }
 }
 
-/// A spiral around (1, 1) that decays until t = turn and grows from there on: its radius is e^(t (t / 2 - turn)).
+/// A spiral around (1, 1) that decays until t = turn and grows from there on: its radius is e^(0.3 t (t / 2 - turn)).
 struct LateSpiral {
   double turn;
   Sizes sizes() const { return {.nx = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0, growth = p.t - turn;
+    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0, growth = 0.3 * (p.t - turn);
     r.x[0] = growth * x - 3.0 * y - p.k[0];
     r.x[1] = 3.0 * x + growth * y - p.k[1];
   }
 };
 
-// The motion rests, in few and long steps, when its rest becomes unstable.
+// The motion rests, in few and long steps, when its rest becomes unstable: these have to be looked at more often than
+// those of motions.
 TEST(UnstableRest, OneThatBecomesUnstableLaterIsFound) {
-  for (const double turn : {5.0, 6.0, 8.0}) {
-    for (const double tol : {1e-3, 1e-4, 1e-5}) {
-      State<double> start({.nx = 2});
-      start.x << 2, 1;
-      const MeasuredRun run = measuredRun(LateSpiral{turn}, start, 2 * turn, embedded(tol));
-      const double error = std::abs(run.first.state.x[0] - 1 - std::cos(6 * turn));
-      EXPECT_LE(error, 3 * (run.bar.x[0] + tol)) << turn << ' ' << tol << ' ' << run.bar.remark;
-    }
+  for (const auto& [turn, tol] : {std::pair(11.5, 1e-3), std::pair(14.0, 1e-3)}) {
+    State<double> start({.nx = 2});
+    start.x << 2, 1;
+    const MeasuredRun run = measuredRun(LateSpiral{turn}, start, 2 * turn, embedded(tol));
+    const double error = std::abs(run.first.state.x[0] - 1 - std::cos(6 * turn));
+    EXPECT_GT(error, 0.1) << "the test shows nothing";
+    EXPECT_LE(error, 3 * (run.bar.x[0] + tol)) << turn << ' ' << tol << ' ' << run.bar.remark;
   }
 }
 
