@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "core/options/fixed_steps.h"
 #include "experiments/base/clock.h"
@@ -34,19 +35,11 @@ double relative(const Vec<double>& errors, const auto& y, const Vec<double>& sca
   return largest;
 }
 
-// `gauss` of `gauss_3`; `id` itself without a number of stages.
-std::string familyOf(const std::string& id) {
-  const std::size_t underscore = id.rfind('_');
-  const bool numbered = underscore != std::string::npos && underscore + 1 < id.size() &&
-                        id.find_first_not_of("0123456789", underscore + 1) == std::string::npos;
-  return numbered ? id.substr(0, underscore) : id;
-}
-
 // Radau IIA needs fewer steps than Lobatto IIIC, which measures its methods, and all that may have its nodes: tableaus
 // from files, solvers of other libraries.
 std::string otherFamily(const std::string& method) {
-  const std::string family = familyOf(method);
-  return isFamily(family) && family != "radau_iia" ? "radau_iia" : "lobatto_iiic";
+  const std::string_view family = familyOfId(method);
+  return family.empty() || family == "radau_iia" ? "lobatto_iiic" : "radau_iia";
 }
 
 }  // namespace

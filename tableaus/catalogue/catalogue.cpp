@@ -123,6 +123,12 @@ Tableau<Real> makeTableau(std::string_view id_or_file) {
 
 bool isFamily(std::string_view id) { return findFamily(id) != nullptr; }
 
+std::string_view familyOfId(std::string_view id) {
+  if (isFamily(id)) return id;
+  const auto member = memberOf(id);
+  return member && isWholeNumber(member->stages) ? member->family : std::string_view();
+}
+
 template <class Real>
 Methods<Real> makeMethods(std::string_view id, Index max_stages, Index first) {
   const auto member = memberOf(id);

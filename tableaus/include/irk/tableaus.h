@@ -28,6 +28,8 @@ Tableau<Real> makeTableau(std::string_view id_or_file);
 
 /// Whether `id` is the id of a family, without a number of stages.
 bool isFamily(std::string_view id);
+/// The family of an id, `gauss` of `gauss_3` and of `gauss`; empty for a file and for what is no id.
+std::string_view familyOfId(std::string_view id);
 
 /// The methods for variable order: the members of a family with stage order >= 1 and up to `max_stages` stages. For
 /// an id such as `radau_iia_5` that member is used first, and is always included; for a family's id the member whose
