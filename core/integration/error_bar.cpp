@@ -205,6 +205,15 @@ std::string lacks(const SmallComponents<Real>& small, const UnstableRest<Real>& 
   return text.str();
 }
 
+ErrorBar withVanished(ErrorBar bar, double t) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "how the motion leaves the rest that is unstable at t = " << t
+       << " is not known: it had come nearer to it than round-off";
+  bar.remark = text.str();
+  return bar;
+}
+
 // The same with what is below the tolerance on the way under control: the integration begins anew with each component
 // that is found small, and with shorter steps at each unstable rest. If that fails or takes too many steps, they are
 // left as they are, and the bar's remark says so.
@@ -212,7 +221,7 @@ template <class Real>
 ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solution<Real>& other) {
   std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
   SmallComponents<Real> small(of.start, of.tolerances, of.scale);
-  UnstableRest<Real> rest(second.system(), of.tolerances, of.scale, of.t_end ? *of.t_end : of.result.t);
+  UnstableRest<Real> rest(second.system(), of.tolerances, of.scale, of.start.t, of.t_end ? *of.t_end : of.result.t);
   Monitor<Real> watched = of.monitor;
   watched.accepted = [&](const StepRecord<Real>& step) {
     small.look(step);
@@ -235,6 +244,7 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
       return barBy(second, of, watched, other);
     }();
     if (small.found() || rest.found()) continue;
+    if (bar.known() && rest.vanished()) return withVanished(bar, rest.t());
     if (bar.known() || !controls) return bar;
     const std::string ended = left < 0 ? " takes too many steps" : " ends as " + std::string(name(other.outcome));
     ErrorBar plain = barBy(second, of, of.monitor, other);

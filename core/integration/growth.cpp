@@ -61,23 +61,28 @@ double Growth<Real>::rate(const State<Real>& state, double time) {
 }
 
 template <class Real>
-double Growth<Real>::restingRate(const State<Real>& state, double time, const Vec<double>& tolerance) {
+auto Growth<Real>::motions(const State<Real>& state, double time, const Vec<double>& tolerance,
+                           const Vec<double>& round_off) -> Motions {
+  Motions of;
   const Eigen::EigenSolver<Mat<double>> right(J_), left(J_.transpose());
-  if (right.info() != Eigen::Success || left.info() != Eigen::Success) return 0;
+  if (right.info() != Eigen::Success || left.info() != Eigen::Success) return of;
   Vec<std::complex<double>> f(J_.rows());
   f << state.v.template cast<double>(), state.w.head(f.size() - state.v.size()).template cast<double>();
-  double largest = 0;
   for (Index i = 0; i < f.size(); ++i) {
     const std::complex<double> lambda = right.eigenvalues()[i];
-    if (!grows(lambda, time)) continue;
     Index same = 0;
     (left.eigenvalues().array() - lambda).abs().minCoeff(&same);
     const Vec<std::complex<double>> p = left.eigenvectors().col(same), q = right.eigenvectors().col(i);
     const double part = std::abs((p.transpose() * f).value() / (p.transpose() * q).value());
-    const bool rests = part / std::abs(lambda) * (q.cwiseAbs().array() / tolerance.array()).maxCoeff() < 1;
-    if (rests) largest = std::max(largest, std::abs(lambda));
+    const Vec<double> distance = part / std::abs(lambda) * q.cwiseAbs();
+    const bool lives = (distance.array() > round_off.array()).any();
+    if (lives) of.living = std::max(of.living, std::abs(lambda));
+    if (!grows(lambda, time) || !(distance.array() < tolerance.array()).all()) continue;
+    of.resting = std::max(of.resting, std::abs(lambda));
+    of.faster = std::max(of.faster, lambda.real());
+    if (lives) of.vanished = false;
   }
-  return largest;
+  return of;
 }
 
 IRK_INSTANTIATE_CLASS(Growth)

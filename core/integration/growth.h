@@ -21,10 +21,17 @@ class Growth {
   /// 50 components: eigenvalues of N components cost about 10 N^3 operations, with their vectors 25 N^3 (Golub & Van
   /// Loan, Matrix Computations, 7.5.6). Allocates.
   double rate(const State<Real>& state, double time);
-  /// The same among those whose motion rests, for the state of the last call of `rate`, which was not 0: its distance
-  /// from the rest of the linearized motion is below the `tolerance` of each component of u, v, x. With the eigenvector
-  /// q and the left one p the distance is q (p f) / (lambda p q), f = (v, a, k).
-  double restingRate(const State<Real>& state, double time, const Vec<double>& tolerance);
+
+  /// The motions along the eigenvectors q of J: the distance of each from the rest of the linearized motion is
+  /// q (p f) / (lambda p q), with the left eigenvector p and f = (v, a, k).
+  struct Motions {
+    double resting = 0;    ///< the largest |lambda| of those that grow and are nearer to the rest than the tolerance
+    double faster = 0;     ///< the largest Re lambda of these
+    double living = 0;     ///< the largest |lambda| of those that are further away than round-off
+    bool vanished = true;  ///< whether none of those that grow and rest is further away than round-off
+  };
+  /// For the state of the last call of `rate`. `tolerance` and `round_off` of each component of u, v, x.
+  Motions motions(const State<Real>& state, double time, const Vec<double>& tolerance, const Vec<double>& round_off);
 
  private:
   bool linearize(const State<Real>& state);

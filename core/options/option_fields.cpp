@@ -108,7 +108,7 @@ std::span<const OptionField> optionFields() {
       axis(IRK_MEMBER(order), "Whether the number of stages stays the same or follows the cost."),
       axis(IRK_MEMBER(summation), "How the increments of steps are added up."),
       axis(IRK_MEMBER(multipliers), "Accelerations and multipliers at the end of the integration."),
-      axis(IRK_MEMBER(tolerances.norm), "The norm of errors and of Newton's increments.", noTolerance),
+      axis(IRK_MEMBER(tolerances.norm), "The norm of errors.", noTolerance),
       axis(IRK_MEMBER(jacobian), "Which terms of the Jacobian are left out."),
       axis(IRK_MEMBER(jacobian_point), "Where in a step the Jacobian is evaluated."),
       axis(IRK_MEMBER(guards), "What is checked of a step besides its error estimate.", noEstimate),

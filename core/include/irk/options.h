@@ -131,7 +131,8 @@ enum class JacobianPoint {
   kEachStage,  ///< at the start values of each stage; coupled solvers only
 };
 
-/// The norm of errors and of Newton's increments. An error of norm 1 is one tolerance. y: the state, e: its error.
+/// The norm of errors. An error of norm 1 is one tolerance. y: the state, e: its error. The norm of Newton's increments
+/// is always the root mean square.
 enum class NormKind {
   kMixed,     ///< RMS of e_i / (atol scale_i + rtol |y_i|); accepted below 1
   kAbsolute,  ///< the paper's: 2-norm of e / atol over all components

@@ -8,8 +8,8 @@
 namespace irk {
 
 /// The names of all collections, sorted: `ivp`, the problems of the IVP test set; `multibody`, mechanisms; `switching`,
-/// scenes whose equations switch; `probes`, small problems that show one property of a method; and those of the scenes
-/// that were registered.
+/// scenes whose equations switch; `probes`, small problems that show one property of a method; `foreign`, systems after
+/// questions and bug reports of other programs' users; and those of the scenes that were registered.
 std::vector<std::string> collections();
 
 /// The ids of a collection's scenes, in the order of the catalogue. Throws Misuse for an unknown collection, naming the

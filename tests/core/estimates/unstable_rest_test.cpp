@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/integration/growth.h"
@@ -135,28 +136,54 @@ TEST(UnstableRest, IsFoundAtTheStartOfFastMotions) {
   }
 }
 
-/// A spiral around (1, 1) that decays until t = turn and grows from there on: its radius is e^(0.3 t (t / 2 - turn)).
+/// A spiral around (1, 1) that decays until t = turn and grows from there on. Its radius is e^(slope t (t / 2 - turn)):
+/// e^-depth at the turn, 1 again at 2 turn.
 struct LateSpiral {
-  double turn;
+  double slope, frequency, depth;
+  double turn() const { return std::sqrt(2 * depth / slope); }
+  double radius(double t) const { return std::exp(slope * t * (t / 2 - turn())); }
   Sizes sizes() const { return {.nx = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
-    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0, growth = 0.3 * (p.t - turn);
-    r.x[0] = growth * x - 3.0 * y - p.k[0];
-    r.x[1] = 3.0 * x + growth * y - p.k[1];
+    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0, growth = slope * (p.t - turn());
+    r.x[0] = growth * x - frequency * y - p.k[0];
+    r.x[1] = frequency * x + growth * y - p.k[1];
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.x << 2, 1;
+    return s;
   }
 };
 
-// The motion rests, in few and long steps, when its rest becomes unstable: these have to be looked at more often than
-// those of motions.
-TEST(UnstableRest, OneThatBecomesUnstableLaterIsFound) {
-  for (const auto& [turn, tol] : {std::pair(11.5, 1e-3), std::pair(14.0, 1e-3)}) {
-    State<double> start({.nx = 2});
-    start.x << 2, 1;
-    const MeasuredRun run = measuredRun(LateSpiral{turn}, start, 2 * turn, embedded(tol));
-    const double error = std::abs(run.first.state.x[0] - 1 - std::cos(6 * turn));
-    EXPECT_GT(error, 0.1) << "the test shows nothing";
-    EXPECT_LE(error, 3 * (run.bar.x[0] + tol)) << turn << ' ' << tol << ' ' << run.bar.remark;
+// The motion rests, in few and long steps, when its rest becomes unstable, and what grows then is what the decay has
+// left: down to e^-26 = 5e-12. It comes to rest with an error of a part of the tolerance, which remains the same part.
+TEST(UnstableRest, OneThatBecomesUnstableLaterIsFollowedThroughItsDecay) {
+  for (const double slope : {0.3, 10.0}) {
+    for (const double frequency : {0.0, 3.0, 30.0}) {
+      for (const auto& [depth, tol] : {std::pair(12.0, 1e-2), std::pair(20.0, 1e-3), std::pair(26.0, 1e-6)}) {
+        const LateSpiral problem{slope, frequency, depth};
+        const double t = 2 * problem.turn();
+        const MeasuredRun run = measuredRun(problem, problem.start(), t, embedded(tol));
+        const auto radius = [](const State<double>& s) { return std::hypot(s.x[0] - 1, s.x[1] - 1); };
+        const std::string what = std::to_string(slope) + ' ' + std::to_string(frequency) + ' ' + std::to_string(depth);
+        EXPECT_GT(std::abs(std::log(radius(run.first.state))), 1) << what << ": the run itself has lost it";
+        EXPECT_NEAR(radius(run.second.state), problem.radius(t), 0.3) << what;
+        const double error = std::hypot(run.first.state.x[0] - 1 - std::cos(frequency * t),
+                                        run.first.state.x[1] - 1 - std::sin(frequency * t));
+        EXPECT_NEAR(run.bar.x.norm(), error, 0.3 * error) << what;
+        EXPECT_TRUE(run.bar.remark.empty()) << what << ": " << run.bar.remark;
+      }
+    }
+  }
+}
+
+TEST(UnstableRest, ARemarkTellsOfADecayBelowRoundOff) {
+  for (const double frequency : {0.0, 3.0, 30.0}) {
+    const LateSpiral problem{1, frequency, 60};
+    const auto remarkAt = [&](double t) { return measuredRun(problem, problem.start(), t, embedded(1e-3)).bar.remark; };
+    EXPECT_NE(remarkAt(2 * problem.turn()).find("nearer to it than round-off"), std::string::npos) << frequency;
+    EXPECT_EQ(remarkAt(1.1 * problem.turn()), "") << frequency << ": it has not grown to the tolerance";
   }
 }
 
@@ -200,7 +227,11 @@ TEST(Growth, RestsInAModeWhateverTheOthersDo) {
     s.w << 0, 100 * std::sin(deviation);
     Growth<double> growth(*system, DerivativeSource::kAutomatic);
     EXPECT_GT(growth.rate(s, 10), 0);
-    return growth.restingRate(s, 10, Vec<double>::Constant(3, 1e-4));
+    const auto motions = growth.motions(s, 10, Vec<double>::Constant(3, 1e-4), Vec<double>::Constant(3, 1e-13));
+    EXPECT_NEAR(motions.faster, motions.resting, 1e-9) << "not an oscillation";
+    EXPECT_NEAR(motions.living, 100, 1e-4);
+    EXPECT_FALSE(motions.resting > 0 && motions.vanished);
+    return motions.resting;
   };
   EXPECT_NEAR(rate(1e-9), 100, 1e-4);
   EXPECT_NEAR(rate(0.9e-4), 100, 1e-4);
