@@ -43,8 +43,7 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
       switches_(system),
       state_(system.sizes()),
       next_(system.sizes()) {
-  const bool stops = !switches_.none() && system.discontinuity().at_switch == AtSwitch::kEnd;
-  if (system.errorPowers().isIndex3() && stops) {
+  if (system.errorPowers().isIndex3()) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);
   }
   const bool constrained = constrainedIn(system).sizes().constraints > 0;
@@ -63,7 +62,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   round_off_ = 0;
   last_rejection_ = nullptr;
   failures_ = 0;
-  solved_ = false;
+  solved_ = rejected_ = false;
   last_h_ = Real(0);
   earlier_.reset();
   attempt_->begin(length);
@@ -88,10 +87,10 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
 
 // In index 3 Newton's method may leave kNewtonPart kHiddenPart of a tolerance in g(u). The next step turns it into a
 // change of velocities that is last_h / h times as large: more than kHiddenPart of a tolerance if h is shorter than
-// this.
+// this. Where the estimate has rejected a step, that may be the cause, which still shorter steps make larger.
 template <class Real>
 bool Trajectory<Real>::isShortAfterLast(const Real& h) const {
-  return projection_ && controller_ && h < Real(kNewtonPart.value) * last_h_;
+  return projection_ && controller_ && h < Real(rejected_ ? 1 : kNewtonPart.value) * last_h_;
 }
 
 // Projects positions and velocities to their constraints. False if that cannot be done; the state is then as before.
@@ -124,6 +123,7 @@ StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
   controller_->factorsCost(jacobian_.factorsCost());
   const StepDecision decision = controller_->decide(result.error, h);
   if (!decision.accept) last_rejection_ = "the error";
+  rejected_ = !decision.accept;
   return decision;
 }
 
@@ -245,11 +245,12 @@ void Trajectory<Real>::report(const CommittedStep<Real>& step) {
 // Sets the new mode and its (a, k, z), which may make further switches due.
 template <class Real>
 Outcome Trajectory<Real>::restartAtSwitch() {
+  const bool stops = !switches_.none() && system_.discontinuity().at_switch == AtSwitch::kEnd;
   for (int round = 0; round < kSwitchRounds; ++round) {
     const Outcome modes = settle();
     if (modes != Outcome::kSuccess) return modes;
     restart();
-    if (projection_) {
+    if (projection_ && stops) {
       last_h_ = Real(0);
       const Outcome projected = projection_->applyToPositions(state_);
       if (projected != Outcome::kSuccess) return projected;

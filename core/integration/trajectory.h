@@ -97,9 +97,10 @@ class Trajectory {
   ConsistentStart<Real> start_;
   Amounts<Real> amounts_;
   /// In index 3 positions and velocities satisfy their constraints only to the error of a step. The short steps after a
-  /// restart would turn that into errors of velocities and accelerations. Null in other formulations.
+  /// restart or a rejection would turn that into errors of velocities and accelerations. Null in other formulations.
   std::unique_ptr<VelocityProjection<Real>> projection_;
-  Real last_h_{0};  // size of the last accepted step; 0 if the state was projected since, or is the start
+  Real last_h_{0};         // size of the last accepted step; 0 if the state was projected since, or is the start
+  bool rejected_ = false;  // whether the estimate rejected the last attempt
   std::unique_ptr<SingularPositions<Real>> positions_;  // null without position constraints
   bool leaves_out_ = false;                             // constraints that have to follow from the others
   Switches<Real> switches_;
