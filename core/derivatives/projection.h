@@ -22,6 +22,8 @@ class VelocityProjection {
   /// there a remaining g enters the velocities as g / h, which is large for a short step. A failure may leave
   /// projected positions with unprojected velocities.
   [[nodiscard]] Outcome applyToPositions(State<Real>& state);
+  /// For another integration, which must not depend on the points of this one.
+  void forgetPattern() { differentiator_.forgetPattern(); }
 
  private:
   Outcome solve(Level level, const State<Real>& state);

@@ -205,10 +205,14 @@ std::string lacks(const SmallComponents<Real>& small, const UnstableRest<Real>& 
   return text.str();
 }
 
-ErrorBar withVanished(ErrorBar bar, double t) {
+template <class Real>
+ErrorBar withRemark(ErrorBar bar, const std::string& lacking, const UnstableRest<Real>& rest) {
+  if (!bar.known()) return bar;
+  bar.remark = lacking;
+  if (!lacking.empty() || !rest.vanished()) return bar;
   std::ostringstream text;
   text.precision(3);
-  text << "how the motion leaves the rest that is unstable at t = " << t
+  text << "how the motion leaves the rest that is unstable at t = " << rest.t()
        << " is not known: it had come nearer to it than round-off";
   bar.remark = text.str();
   return bar;
@@ -219,7 +223,9 @@ ErrorBar withVanished(ErrorBar bar, double t) {
 // left as they are, and the bar's remark says so.
 template <class Real>
 ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solution<Real>& other) {
-  std::int64_t left = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
+  const std::int64_t effort = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
+  std::int64_t left = effort;
+  std::string lacking;  // what former integrations could not control
   SmallComponents<Real> small(of.start, of.tolerances, of.scale);
   UnstableRest<Real> rest(second.system(), of.tolerances, of.scale, of.start.t, of.t_end ? *of.t_end : of.result.t);
   Monitor<Real> watched = of.monitor;
@@ -244,12 +250,15 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
       return barBy(second, of, watched, other);
     }();
     if (small.found() || rest.found()) continue;
-    if (bar.known() && rest.vanished()) return withVanished(bar, rest.t());
-    if (bar.known() || !controls) return bar;
+    if (bar.known()) return withRemark(bar, lacking, rest);
+    if (!controls) return bar;
     const std::string ended = left < 0 ? " takes too many steps" : " ends as " + std::string(name(other.outcome));
-    ErrorBar plain = barBy(second, of, of.monitor, other);
-    if (plain.known()) plain.remark = "the bar may lack " + lacks(small, rest, of.start) + ended;
-    return plain;
+    lacking = "the bar may lack " + lacks(small, rest, of.start) + ended;
+    if (rest.leaveDecays()) {
+      left = effort;
+      continue;
+    }
+    return withRemark(barBy(second, of, of.monitor, other), lacking, rest);
   }
 }
 

@@ -9,6 +9,13 @@
 
 namespace irk {
 
+namespace {
+
+// After so many time constants nothing is left of a decay in double precision: -ln 2.2e-16.
+constexpr double kDecayed = 36;
+
+}  // namespace
+
 template <class Real>
 Growth<Real>::Growth(const System<Real>& system, DerivativeSource source)
     : system_(system), differentiator_(system, source) {}
@@ -62,26 +69,30 @@ double Growth<Real>::rate(const State<Real>& state, double time) {
 
 template <class Real>
 auto Growth<Real>::motions(const State<Real>& state, double time, const Vec<double>& tolerance,
-                           const Vec<double>& round_off) -> Motions {
-  Motions of;
-  const Eigen::EigenSolver<Mat<double>> right(J_), left(J_.transpose());
-  if (right.info() != Eigen::Success || left.info() != Eigen::Success) return of;
-  Vec<std::complex<double>> f(J_.rows());
+                           const Vec<double>& round_off, double since) -> std::optional<Motions> {
+  const Eigen::EigenSolver<Mat<double>> solver(J_);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  Vec<double> f(J_.rows());
   f << state.v.template cast<double>(), state.w.head(f.size() - state.v.size()).template cast<double>();
+  const auto& q = solver.eigenvectors();
+  const Eigen::MatrixXcd inverse = q.partialPivLu().inverse();
+  const Eigen::VectorXcd c = inverse * f;
+  const Vec<double> noise = inverse.cwiseAbs() * round_off;
+  Motions of;
+  bool any_further = false, any_vanished = false;
   for (Index i = 0; i < f.size(); ++i) {
-    const std::complex<double> lambda = right.eigenvalues()[i];
-    Index same = 0;
-    (left.eigenvalues().array() - lambda).abs().minCoeff(&same);
-    const Vec<std::complex<double>> p = left.eigenvectors().col(same), q = right.eigenvectors().col(i);
-    const double part = std::abs((p.transpose() * f).value() / (p.transpose() * q).value());
-    const Vec<double> distance = part / std::abs(lambda) * q.cwiseAbs();
-    const bool lives = (distance.array() > round_off.array()).any();
-    if (lives) of.living = std::max(of.living, std::abs(lambda));
-    if (!grows(lambda, time) || !(distance.array() < tolerance.array()).all()) continue;
+    const std::complex<double> lambda = solver.eigenvalues()[i];
+    const double distance = std::abs(c[i]) / std::abs(lambda);
+    const bool lives = !(distance <= noise[i]);
+    const bool is_driven = -lambda.real() * since > kDecayed;
+    if (lives && !is_driven) of.living = std::max(of.living, std::abs(lambda));
+    const bool rests = (distance * q.col(i).cwiseAbs().array() < tolerance.array()).all();
+    if (!grows(lambda, time) || !rests) continue;
     of.resting = std::max(of.resting, std::abs(lambda));
     of.faster = std::max(of.faster, lambda.real());
-    if (lives) of.vanished = false;
+    (lives ? any_further : any_vanished) = true;
   }
+  of.vanished = any_vanished && !any_further;
   return of;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/rate_lu.h"
@@ -23,15 +24,18 @@ class Growth {
   double rate(const State<Real>& state, double time);
 
   /// The motions along the eigenvectors q of J: the distance of each from the rest of the linearized motion is
-  /// q (p f) / (lambda p q), with the left eigenvector p and f = (v, a, k).
+  /// q c / lambda with sum_i q_i c_i = f = (v, a, k).
   struct Motions {
-    double resting = 0;    ///< the largest |lambda| of those that grow and are nearer to the rest than the tolerance
-    double faster = 0;     ///< the largest Re lambda of these
-    double living = 0;     ///< the largest |lambda| of those that are further away than round-off
-    bool vanished = true;  ///< whether none of those that grow and rest is further away than round-off
+    double resting = 0;     ///< the largest |lambda| of those that grow and are nearer to the rest than the tolerance
+    double faster = 0;      ///< the largest Re lambda of these
+    double living = 0;      ///< the largest |lambda| of those that are further away than round-off
+    bool vanished = false;  ///< some of those that grow and rest are not further away than round-off, and none is
   };
-  /// For the state of the last call of `rate`. `tolerance` and `round_off` of each component of u, v, x.
-  Motions motions(const State<Real>& state, double time, const Vec<double>& tolerance, const Vec<double>& round_off);
+  /// For the state of the last call of `rate`. `tolerance` and `round_off` of each component of u, v, x. A motion that
+  /// rests for the time `since` and would have decayed to round-off in it is not a living one: others drive it. Nothing
+  /// if the eigenvectors are not known.
+  std::optional<Motions> motions(const State<Real>& state, double time, const Vec<double>& tolerance,
+                                 const Vec<double>& round_off, double since);
 
  private:
   bool linearize(const State<Real>& state);

@@ -36,7 +36,7 @@ class UnstableRest {
   void begin() {
     found_ = rests_ = decays_ = vanished_ = false;
     look_in_ = 0;
-    resolved_ = grown_ = since_look_ = 0;
+    resolved_ = grown_ = since_look_ = rests_for_ = 0;
     fastest_ = std::numeric_limits<double>::infinity();
   }
   void look(const StepRecord<Real>& step) {
@@ -47,6 +47,8 @@ class UnstableRest {
     const bool comes_to_rest = !std::exchange(rests_, rests) && rests;
     const double left = static_cast<double>(Real(t_end_ - step.t));
     since_look_ += step.h;
+    rests_for_ = rests ? rests_for_ + step.h : 0;
+    if (!rests && grown_ == 0) vanished_ = false;  // something else moves it
     // Once in N steps, the eigenvalues of N components take about a tenth of the time of a bar; those of a few take as
     // long as a step and are computed in every tenth one (judged by 2700 runs of systems with unstable rests: no
     // outcome differs). A motion that rests takes few, long steps, in which it may become unstable: there it is once in
@@ -73,8 +75,13 @@ class UnstableRest {
   // Whether the deviation has fallen below round-off in a decay, and has left the rest afterwards or could have done
   // so.
   bool vanished() const {
-    const double enough = std::log(std::max(tolerances_.rtol, tolerances_.atol) / roundOff());
-    return vanished_ && (!rests_ || grown_ > enough);
+    if (!vanished_ || grown_ == 0) return false;
+    return !rests_ || grown_ > std::log((tolerance_.array() / round_off_.array()).minCoeff());
+  }
+  // From the next integration on decays are not followed; false if they were not.
+  bool leaveDecays() {
+    leaves_decays_ = true;
+    return std::exchange(through_decays_, false);
   }
 
  private:
@@ -89,17 +96,15 @@ class UnstableRest {
     double growth = growth_.rate(state, left), living = 0;
     const bool too_fast = growth * h > 1;
     resolved_ = too_fast ? 0 : growth;
-    if (rests && growth == 0 && fastest_ > 0) decays_ = true;
+    const bool stays = std::max(h, length_ / kParts) * fastest_ < 1;  // short steps seem to rest
+    if (stays && growth == 0 && fastest_ > 0) decays_ = !leaves_decays_;
     if (through_decays_ || ((too_fast || (follows_ && growth > 0)) && !rests)) {
-      const auto motions = growth_.motions(state, left, tolerance_, round_off_);
-      if (!rests) growth = motions.resting;
-      if (rests) living = motions.living;
-      const bool begins_to_grow = motions.resting > 0 && grown_ == 0;
-      if (decays_ && rests && (begins_to_grow ? motions.vanished : motions.living == 0)) vanished_ = true;
-      grown_ += motions.faster * passed;
+      const auto motions = growth_.motions(state, left, tolerance_, round_off_, rests_for_);
+      if (!rests) growth = motions ? motions->resting : 0;
+      if (rests && motions) living = followDecay(*motions, passed);
     }
-    const bool is_followed = decays_ ? through_decays_ : follows_;
-    if (growth > 0 && !is_followed && (too_fast || follows_)) {
+    const bool is_followed = decays_ ? through_decays_ : follows_ || !too_fast;
+    if (growth > 0 && !is_followed) {
       found_ = follows_ = true;
       through_decays_ = decays_;
       t_ = static_cast<double>(state.t);
@@ -108,6 +113,17 @@ class UnstableRest {
     const double least = through_decays_ && rests ? kParts / length_ : 0;
     const double fastest = std::max({(through_decays_ ? 8 : 2) * growth, 8 * living, least});
     if (follows_) limit_ = fastest > 0 ? 1 / fastest : std::numeric_limits<double>::infinity();
+  }
+  // Keeps account of what is left of a motion that rests; returns the largest |lambda| that has to be followed.
+  double followDecay(const typename Growth<Real>::Motions& motions, double passed) {
+    if (!decays_) return motions.living;
+    if (motions.resting == 0 && motions.living == 0) {
+      vanished_ = true;
+      grown_ = 0;
+    }
+    if (motions.vanished && grown_ == 0) vanished_ = true;
+    grown_ += motions.faster * passed;
+    return motions.living;
   }
   // Of u, v and x.
   void setTolerances(const State<Real>& s) {
@@ -134,12 +150,14 @@ class UnstableRest {
   Real t_end_;
   bool found_ = false, follows_ = false;
   bool through_decays_ = false;  // follows decays as well
+  bool leaves_decays_ = false;   // must not
   bool rests_ = false;           // nothing moved by a tolerance in the last step
   bool decays_ = false;          // this integration has come to a rest in which nothing grew
   bool vanished_ = false;        // nothing was left of the motion when it began to grow
   double grown_ = 0;             // the exponent by which it has grown since
   Index look_in_ = 0;            // steps until eigenvalues are computed again
   double since_look_ = 0;        // time
+  double rests_for_ = 0;         // time
   double resolved_ = 0;          // the growth then, if the steps resolved it; else 0
   double fastest_ = 0;           // fastestIn at the end of the last step
   double limit_ = std::numeric_limits<double>::infinity(), t_ = 0;

@@ -76,6 +76,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   const Outcome modes = modes_->settlesAtStart() ? settle() : Outcome::kSuccess;
   if (modes != Outcome::kSuccess) return modes;
   start_.forgetPattern();
+  if (projection_) projection_->forgetPattern();
   const StartReport report = start_.apply(state_);
   start_detail_ = report.detail;
   determined_ = report.determined;
@@ -93,12 +94,17 @@ bool Trajectory<Real>::isShortAfterLast(const Real& h) const {
   return projection_ && controller_ && h < Real(rejected_ ? 1 : kNewtonPart.value) * last_h_;
 }
 
-// Projects positions and velocities to their constraints. False if that cannot be done; the state is then as before.
+// Projects positions and velocities to their constraints. False, with the state as before, if that cannot be done or
+// moves a position by more than a drift may be, as near a singular position.
 template <class Real>
 bool Trajectory<Real>::satisfyConstraints() {
   last_h_ = Real(0);
   next_ = state_;
   if (projection_->applyToPositions(next_) != Outcome::kSuccess) return false;
+  for (Index i = 0; i < next_.u.size(); ++i) {
+    const double moved = std::abs(static_cast<double>(Real(next_.u[i] - state_.u[i])));
+    if (!(moved <= kAllowedDrift * norm_.weights()[i])) return false;
+  }
   std::swap(state_, next_);
   return true;
 }
@@ -268,7 +274,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     }
     // In index 3 the stages' accelerations are of low order, and their difference at the start shows nothing. If D0 is
     // singular, (a, k) are not known, and the first step may change them: it has no rates to follow.
-    if (report.determined && !projection_) attempt_->restart();
+    if (report.determined && !(projection_ && stops)) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
     blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;

@@ -41,6 +41,7 @@ TEST(Constants, NoOthersDecide) {
                                     "kFurther",
                                     "kBeside",
                                     "kDualCheck",
+                                    "kDecayed",
                                     "kLooser",
                                     "kSparseFill",
                                     "kDistance",
