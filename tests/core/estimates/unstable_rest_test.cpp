@@ -201,6 +201,35 @@ TEST(UnstableRest, ComponentsThatAreDrivenNeedNoShortSteps) {
   EXPECT_LT(run.steps, 3000);
 }
 
+// An oscillation of 1500 / s through a decay of 1.6 s takes 19 000 steps of 1/8 of its time constant. Its growth alone
+// is followed then.
+TEST(UnstableRest, ARemarkTellsOfADecayThatIsTooLong) {
+  const LateSpiral problem{10, 1500, 20};
+  const MeasuredRun run = measuredRun(problem, problem.start(), 2 * problem.turn(), embedded(1e-3));
+  EXPECT_NE(run.bar.remark.find("takes too many steps"), std::string::npos) << run.bar.remark;
+  EXPECT_GT(run.steps, 13000) << "10 000 through the decay, and those of the growth";
+}
+
+/// x - 1 = e^(10 sin t) over ten periods, and then a decay to nothing within one unit of time.
+struct TenPeriods {
+  static constexpr double kEnd = 20 * M_PI;
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    const bool decays = p.t > kEnd;
+    r.x[0] = (decays ? T(-50.0) : T(10.0 * cos(p.t))) * (p.x[0] - 1.0) - p.k[0];
+  }
+};
+
+TEST(UnstableRest, ADecayToNothingAfterGrowthIsNoReasonForARemark) {
+  State<double> start({.nx = 1});
+  start.x << 2;
+  const MeasuredRun run = measuredRun(TenPeriods{}, start, TenPeriods::kEnd + 1, embedded(1e-3));
+  EXPECT_NEAR(run.second.state.x[0], 1, 1e-4);
+  EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
+}
+
 // Two equal eigenvalues: each motion has an eigenvector of its own.
 TEST(UnstableRest, EqualEigenvaluesAreKeptApart) {
   const LateSpiral problem{0.3, 0, 12};
