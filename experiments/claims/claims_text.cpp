@@ -114,6 +114,9 @@ std::string claimText(const ClaimFindings& findings) {
   return text;
 }
 
+// Whether the measure of a case is 1 or 0.
+bool answersYesOrNo(const Part& part) { return part.measured.starts_with("1 if "); }
+
 }  // namespace
 
 std::string conditionText(const Part& part) {
@@ -125,7 +128,7 @@ std::string conditionText(const Part& part) {
       return fmt::format("{} {:.4g} % {}", part.confirmed.low_open ? "above" : "at least", 100 * part.confirmed.low,
                          countedText(part));
     case Statistic::kExistence:
-      return fmt::format("one case is {}{}", rangeText(part.clean), unit);
+      return answersYesOrNo(part) ? "one case shows it" : fmt::format("one case is {}{}", rangeText(part.clean), unit);
     case Statistic::kReport:
       return "";
   }
@@ -134,6 +137,7 @@ std::string conditionText(const Part& part) {
 
 std::string countedText(const Part& part) {
   if (part.statistic != Statistic::kShare) return "";
+  if (answersYesOrNo(part)) return "of the cases show it";
   return fmt::format("of the cases are {}{}", rangeText(part.clean), part.unit.empty() ? "" : " " + part.unit);
 }
 

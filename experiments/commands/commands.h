@@ -57,8 +57,8 @@ std::string solveJson(const RunRecord& record, int indent = 2);
 /// bar; else empty. Errors of multipliers are not judged.
 std::string largeErrorText(const RunRecord& record);
 
-/// The runs that options with lists describe, `m=1,2,4`: all combinations, the last list changes fastest. Throws
-/// Misuse for empty and repeated items.
+/// The runs that options with lists describe, `m=1,2,4`: all combinations. `tol` changes fastest, then `step`, `set`
+/// slowest. Throws Misuse for empty and repeated items.
 struct Sweep {
   struct Run {
     SolveOptions options;             ///< without lists

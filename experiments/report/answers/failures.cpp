@@ -121,8 +121,8 @@ std::vector<std::string> sentencesOf(const EndsOf& by_solver, const EndsOf& by_s
     hardest.push_back(fmt::format("{} ({})", scene, percent(ends.bad())));
   }
   if (!hardest.empty()) {
-    sentences.push_back(
-        fmt::format("The problems on which most runs of all solvers fail or are wrong: {}.", listText(hardest)));
+    sentences.push_back(fmt::format(
+        "The problems with the largest share of failed or wrong runs, over all solvers: {}.", listText(hardest)));
   }
   return sentences;
 }
