@@ -115,7 +115,7 @@ std::string claimText(const ClaimFindings& findings) {
 }
 
 // Whether the measure of a case is 1 or 0.
-bool answersYesOrNo(const Part& part) { return part.measured.starts_with("1 if "); }
+bool answersYesOrNo(const Part& part) { return part.measured.starts_with("1 if"); }
 
 }  // namespace
 
