@@ -78,17 +78,21 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       counters_(counters),
       scaled_(scalesRows(system.rowPowers())),
       scales_(scaled_ ? sizes_.n() : 0),
-      basis_(scheme.s),
-      start_{atStart(scheme), Vec<Real>(scheme.s)},
-      lower_{Vec<Real>(scheme.s), Vec<Real>(scheme.s)},
+      weights_(scheme.s, 5),
       defect_(sizes_.n()),
       predicted_(sizes_.n()),
       slip_(sizes_.nu),
-      at_(sizes_),
-      error_(sizes_),
-      beside_(sizes_),
-      e_(sizes_.n(), 1) {
-  start_.integrals.noalias() = scheme.A_transposed * start_.weights;
+      e_(sizes_.n(), 1),
+      inside_(sizes_.n(), kAtOnce) {
+  weights_.col(kFull) = atStart(scheme);
+  weights_.col(kFull + 1).noalias() = scheme.A_transposed * weights_.col(kFull);
+  for (State<Real>* of : {&at_, &error_, &beside_}) {
+    of->u.setZero(sizes_.nu);
+    of->v.setZero(sizes_.nu);
+    of->x.setZero(sizes_.nx);
+  }
+  at_.d.setZero(sizes_.discrete);
+  for (State<Real>* of : {&error_, &beside_}) of->w.setZero(sizes_.n());
 }
 
 template <class Real>
@@ -115,23 +119,30 @@ Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   return outcome;
 }
 
-// Sets e_ to the residual at `p`; rows that say nothing about the error at the step's end are set to zero. Inside,
+// Scales the rows of a residual r, and sets those to zero that say nothing about the error at the step's end. Inside,
 // these are the rows of constraints of index 2 and 3, which the continuous solution satisfies at the stages only. At
 // the start it is g(u0) of index 3. Newton's method leaves a residual delta in it, which changes the accelerations
 // normal to the constraint by delta / h^2 and would appear in the estimate of velocities as delta / h, however small h
 // is. Without this row the estimate is that of the motion along the constraint.
 template <class Real>
-Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at) {
-  system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
-  if (scaled_) e_.col(0).array() *= scales_.array();
-  if (!e_.allFinite()) return Outcome::kNotFinite;
+Outcome EmbeddedEstimate<Real>::scaleAndCheck(Real* r, EquationsAt at) const {
+  VecView<Real> rows(r, sizes_.n());
+  if (scaled_) rows.array() *= scales_.array();
+  if (!rows.allFinite()) return Outcome::kNotFinite;
   if (sizes_.nz == 0) return Outcome::kSuccess;
   const int least = at == EquationsAt::kInside ? 1 : 2;
   const auto& powers = system_.errorPowers().z;
   for (Index i = 0; i < sizes_.nz; ++i) {
-    if (powers[static_cast<std::size_t>(i)] >= least) e_(sizes_.nu + sizes_.nx + i, 0) = Real(0);
+    if (powers[static_cast<std::size_t>(i)] >= least) rows[sizes_.nu + sizes_.nx + i] = Real(0);
   }
   return Outcome::kSuccess;
+}
+
+// Sets e_ to the residual at `p`.
+template <class Real>
+Outcome EmbeddedEstimate<Real>::evaluateAt(const Point<Real>& p, EquationsAt at) {
+  system_.evaluate(Level::kFormulated, p, VecView<Real>(e_.data(), e_.rows()));
+  return scaleAndCheck(e_.data(), at);
 }
 
 // Solves for e with the residual e_, and sets `error` to the error of the state that follows from e.
@@ -159,14 +170,15 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, State<Real>& error) {
 }
 
 template <class Real>
-auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
-                                      const AtStart& at_start, double again_above, State<Real>& error) -> Result {
+auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages, AtStart polynomial,
+                                      double again_above, State<Real>& error) -> Result {
   const Real& h = stages.h;
   Result result;
   if (scaled_) rowScales(system_.rowPowers(), h, scales_);
-  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), at_start.weights, defect_.data(), sizes_.n());
+  const auto column = [this](Index i) { return Eigen::Map<const Vec<Real>>(weights_.col(i).data(), scheme_.s); };
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), column(polynomial), defect_.data(), sizes_.n());
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
-  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, at_start.integrals, slip_.data(), sizes_.nu);
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, column(polynomial + 1), slip_.data(), sizes_.nu);
   const Real factor = -mu_ * h * h;
   for (Index i = 0; i < sizes_.nu; ++i) {
     slip_[i] *= factor;
@@ -194,7 +206,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above)
     -> Result {
-  return estimate(from, stages, start_, again_above, error_);
+  return estimate(from, stages, kFull, again_above, error_);
 }
 
 template <class Real>
@@ -214,11 +226,11 @@ namespace {
 
 // Raises most_i to |r_i| where that is larger; returns whether it was in any row.
 template <class Real>
-bool raises(const Mat<Real>& r, Vec<Real>& most) {
+bool raises(const Real* r, Vec<Real>& most) {
   using std::abs;
   bool raised = false;
   for (Index i = 0; i < most.size(); ++i) {
-    const Real size = abs(r(i, 0));
+    const Real size = abs(r[i]);
     if (!(size > most[i])) continue;
     most[i] = size;
     raised = true;
@@ -237,12 +249,14 @@ auto EmbeddedEstimate<Real>::largestInside(const StagePoints<Real>& at, Index co
     if (largest.outcome == Outcome::kSuccess) largest.outcome = outcome;
   };
   for (Index j = 0; j < count; ++j) {
-    const Point<Real> p = at[j];
-    const Outcome outcome = evaluateAt(p, EquationsAt::kInside);
+    if (j % kAtOnce == 0) system_.evaluatePoints(at, j, std::min(count, j + kAtOnce), inside_.data());
+    Real* const r = inside_.col(j % kAtOnce).data();
+    const Outcome outcome = scaleAndCheck(r, EquationsAt::kInside);
     if (outcome != Outcome::kSuccess) {
       fails(outcome);
-    } else if (raises(e_, most)) {
-      const Result one = filteredInside(p, h);
+    } else if (raises(r, most)) {
+      e_.col(0) = inside_.col(j % kAtOnce);
+      const Result one = filteredInside(at[j], h);
       fails(one.outcome);
       largest.error = std::max(largest.error, one.error);
     }
@@ -283,11 +297,12 @@ auto EmbeddedEstimate<Real>::filteredInside(const Point<Real>& p, const Real& h)
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q)
     -> Result {
-  legendre<Real>(Real(0), basis_);
+  auto basis = weights_.col(kLower + 2);
+  legendre<Real>(Real(0), basis);
   const Index terms = beginsAtStart(scheme_.c) ? std::max<Index>(q - 1, 1) : q;
-  lower_.weights.noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis_.head(terms);
-  lower_.integrals.noalias() = scheme_.A_transposed * lower_.weights;
-  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity(), beside_);
+  weights_.col(kLower).noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis.head(terms);
+  weights_.col(kLower + 1).noalias() = scheme_.A_transposed * weights_.col(kLower);
+  return estimate(from, stages, kLower, std::numeric_limits<double>::infinity(), beside_);
 }
 
 IRK_INSTANTIATE_CLASS(EmbeddedEstimate)

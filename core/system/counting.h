@@ -29,6 +29,10 @@ class CountingSystem final : public System<Real> {
     count(counters_.dual_residuals);
     inner_.evaluate(level, p, r);
   }
+  void evaluatePoints(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
+    count(counters_.residuals, last - first);
+    inner_.evaluatePoints(at, first, last, r);
+  }
   void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
     count(counters_.residuals, last - first);
     inner_.evaluateStages(at, first, last, r);

@@ -83,8 +83,8 @@ class ProblemSystem final : public System<Real> {
   void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const override {
     evaluateAt(level, p, r.data());
   }
-  void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
-    for (Index i = first; i < last; ++i) atStage(at, i, r + i * sizes_.n());
+  void evaluatePoints(const StagePoints<Real>& at, Index first, Index last, Real* r) const override {
+    for (Index i = first; i < last; ++i) atPoint(at, i, r + (i - first) * sizes_.n());
   }
   void switching(const Point<Real>& p, VecView<Real> g) const override {
     if constexpr (kHasSwitching) problem_.switching(p, g.data());
@@ -251,9 +251,9 @@ class ProblemSystem final : public System<Real> {
   using FewOrMany = boost::container::small_vector<T, kFew>;
 
   // Neither is inlined: the compiler would contract other products and sums at each place, and the bits would depend on
-  // the number of stages per call.
+  // the number of points per call.
   [[gnu::noinline]] void formulated(const Point<Real>& p, Real* r) const { evaluateAt(Level::kFormulated, p, r); }
-  [[gnu::noinline]] void atStage(const StagePoints<Real>& at, Index i, Real* r) const {
+  [[gnu::noinline]] void atPoint(const StagePoints<Real>& at, Index i, Real* r) const {
     evaluateAt(Level::kFormulated, at[i], r);
   }
   bool smooth() const { return options_.discontinuity.sees == ModeSeen::kRegularised; }

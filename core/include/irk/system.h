@@ -167,13 +167,17 @@ class System {
   virtual void evaluate(Level level, const Point<Real>& p, VecView<Real> r) const = 0;
   virtual void evaluate(Level level, const Point<Dual<Real>>& p, VecView<Dual<Real>> r) const = 0;
 
-  /// Writes the formulated residuals at the points first <= i < last to the columns i of r. Small systems override it,
-  /// because there a call costs as much as its arithmetic.
-  virtual void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
+  /// Writes the formulated residuals at the points first <= i < last to last - first columns of r. Small systems
+  /// override it, because there a call costs as much as its arithmetic.
+  virtual void evaluatePoints(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
     const Index n = at.sizes.n();
     for (Index i = first; i < last; ++i) {
-      evaluate(Level::kFormulated, at[i], VecView<Real>(r + i * n, n));
+      evaluate(Level::kFormulated, at[i], VecView<Real>(r + (i - first) * n, n));
     }
+  }
+  /// The same for the stages of a step, to the columns i of r: for systems that keep something as long as a step lasts.
+  virtual void evaluateStages(const StagePoints<Real>& at, Index first, Index last, Real* r) const {
+    evaluatePoints(at, first, last, r + first * at.sizes.n());
   }
 
   /// Row i of the formulated residual is multiplied by h^-power[i] (paper, section 4: 1/h for velocity constraints,

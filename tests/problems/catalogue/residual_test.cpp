@@ -105,6 +105,11 @@ TEST(Residual, StagesAtOnceAreTheirResidualsOneByOne) {
           EXPECT_TRUE((r.col(i).array() == single.col(i).array()).all()) << "stage " << i;
         }
         EXPECT_TRUE((r.col(0).array() == -77).all()) << "was not asked for";
+        // Points that are no stages go to the first columns.
+        Mat<double> points_only(n.n(), kStages - 1);
+        counted.evaluatePoints(points, 1, kStages, points_only.data());
+        EXPECT_EQ(counters.residuals, 2 * (kStages - 1));
+        EXPECT_LE((points_only - r.rightCols(kStages - 1)).norm(), 1e-9 * (1 + r.rightCols(kStages - 1).norm()));
       }
     }
   }
