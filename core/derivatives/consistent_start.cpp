@@ -130,14 +130,15 @@ std::string ConsistentStart<Real>::dependentConstraints(const State<Real>& state
 // Checks that all residuals are finite and that the constraints hold.
 template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
-  const double t = sceneTime(system_, state.t);
+  const auto t = [&] { return sceneTime(system_, state.t); };
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
     system_.evaluate(level, pointOf(state), VecView<Real>(r_.data(), r_.size()));
     for (Index i = 0; i < r_.size(); ++i) {
       const double value = static_cast<double>(r_[i]);
-      if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t, i, "residual", value);
+      if (!std::isfinite(value)) return report(Outcome::kNotFinite, kStart, t(), i, "residual", value);
     }
   }
+  if (constrainedIn(system_).sizes().constraints == 0) return {};
   const std::string violated = constraintViolation<Real>(system_, state, weightsOfMotion(state), 1);
   if (violated.empty()) return {};
   return {Outcome::kInconsistentStart, std::string(kStart) + ": " + violated, true};
@@ -183,7 +184,7 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
 // `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
 StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated) {
-  const double t = sceneTime(system_, state.t);
+  const auto t = [&] { return sceneTime(system_, state.t); };
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   Index worst = 0;
@@ -203,12 +204,12 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
         std::ostringstream text;
-        text << place << ", t = " << t << ": " << derivativeFault(uncounted(system_), source_, state);
+        text << place << ", t = " << t() << ": " << derivativeFault(uncounted(system_), source_, state);
         return {Outcome::kNotFinite, text.str(), true};
       }
       if (!factorize()) {
         std::ostringstream text;
-        text << "dr/d(a, k, z) is singular at t = " << t;
+        text << "dr/d(a, k, z) is singular at t = " << t();
         return {Outcome::kSingular, text.str(), false};
       }
     }
@@ -221,10 +222,10 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     state.w -= dw_;
     if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
   }
-  if (!evaluate()) return report(Outcome::kNotFinite, place, t, worst, "residual", value);
+  if (!evaluate()) return report(Outcome::kNotFinite, place, t(), worst, "residual", value);
   const double allowed = tolerated * (1 + static_cast<double>(Real(state.w.norm())));
   if (std::abs(value) <= allowed) return {};
-  return report(Outcome::kInconsistentStart, place, t, worst, "Newton does not converge; residual", value, allowed);
+  return report(Outcome::kInconsistentStart, place, t(), worst, "Newton does not converge; residual", value, allowed);
 }
 
 // Keeps the given (a, k, z) if they are not required or satisfy the residual.

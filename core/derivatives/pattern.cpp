@@ -1,13 +1,16 @@
 #include "core/derivatives/pattern.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numeric>
 #include <utility>
 
 namespace irk {
 
-std::shared_ptr<const Pattern> Pattern::dense(Index n) {
+namespace {
+
+std::shared_ptr<const Pattern> makeDense(Index n) {
   auto p = std::make_shared<Pattern>();
   p->n = n;
   p->column_start.reserve(static_cast<std::size_t>(n + 1));
@@ -17,6 +20,17 @@ std::shared_ptr<const Pattern> Pattern::dense(Index n) {
     for (Index i = 0; i < n; ++i) p->row.push_back(static_cast<int>(i));
   }
   return p;
+}
+
+}  // namespace
+
+std::shared_ptr<const Pattern> Pattern::dense(Index n) {
+  static const auto small = [] {
+    std::array<std::shared_ptr<const Pattern>, 17> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = makeDense(static_cast<Index>(i));
+    return all;
+  }();
+  return n < std::ssize(small) ? small[static_cast<std::size_t>(n)] : makeDense(n);
 }
 
 bool sameShape(const std::shared_ptr<const Pattern>& a, const std::shared_ptr<const Pattern>& b) {
@@ -35,6 +49,7 @@ Directions allDirections(const Sizes& n, int matrices) {
 
 void RowSets::append(const RowSets& others) {
   const std::size_t before = rows_.size();
+  if (start_.empty() && others.size() > 0) start_.push_back(0);
   rows_.insert(rows_.end(), others.rows_.begin(), others.rows_.end());
   for (std::size_t i = 1; i < others.start_.size(); ++i) start_.push_back(before + others.start_[i]);
 }

@@ -19,6 +19,7 @@ struct Pattern {
   std::vector<int> column_start;  ///< n + 1 numbers
   std::vector<int> row;           ///< column_start[n] numbers, ascending in each column
 
+  /// The full pattern. Small ones are made once in a process.
   static std::shared_ptr<const Pattern> dense(Index n);
   Index nonzeros() const { return static_cast<Index>(row.size()); }
 
@@ -68,7 +69,7 @@ class RowSets {
   /// So many empty sets.
   explicit RowSets(std::size_t sets) : start_(sets + 1, 0) {}
 
-  std::size_t size() const { return start_.size() - 1; }
+  std::size_t size() const { return start_.empty() ? 0 : start_.size() - 1; }
   /// The number of rows of all sets together.
   std::size_t entries() const { return rows_.size(); }
   std::span<const int> operator[](std::size_t i) const {
@@ -76,6 +77,7 @@ class RowSets {
   }
   /// Adds one set after the last.
   void append(std::span<const int> set) {
+    if (start_.empty()) start_.push_back(0);
     rows_.insert(rows_.end(), set.begin(), set.end());
     start_.push_back(rows_.size());
   }
@@ -88,7 +90,7 @@ class RowSets {
   }
 
  private:
-  std::vector<std::size_t> start_{0};  // of each set in rows_; size() + 1 numbers
+  std::vector<std::size_t> start_;  // of each set in rows_; size() + 1 numbers, or none
   std::vector<int> rows_;
 };
 

@@ -41,10 +41,7 @@ Amounts<Real>::Amounts(const System<Real>& system, ConsistentStart<Real>& start,
       first_x_(sizes_.nx - system.sceneSizes().nx),
       scene_nx_(system.sceneSizes().nx),
       least_(2 * sizes_.nu + sizes_.nx),
-      largest_(least_.size()),
-      from_(sizes_),
-      to_(sizes_),
-      at_(sizes_) {
+      largest_(least_.size()) {
   small_.reserve(static_cast<std::size_t>(least_.size()));
   never_.reserve(static_cast<std::size_t>(scene_nx_));
   negative_.reserve(static_cast<std::size_t>(scene_nx_));
@@ -57,9 +54,8 @@ Real Amounts<Real>::component(const State<Real>& state, Index i) const {
 }
 
 template <class Real>
-void Amounts<Real>::begin(const State<Real>& state, ErrorNorm<Real>& norm) {
-  norm.update(State<Real>(sizes_));
-  least_ = norm.weights().head(least_.size());
+void Amounts<Real>::begin(const State<Real>& state, const ErrorNorm<Real>& norm) {
+  norm.weightsAtZero(least_);
   round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
   small_.clear();
   never_.clear();
@@ -122,17 +118,18 @@ bool Amounts<Real>::findRates(State<Real>& state) {
   return report.outcome == Outcome::kSuccess && report.determined;
 }
 
-// Sets at_ to the step's polynomial between from_ and to_.
+// Sets crossing_->at to the step's polynomial between its ends.
 template <class Real>
 void Amounts<Real>::between(double theta) {
-  const Real h = to_.t - from_.t;
-  at_.t = from_.t + Real(theta) * h;
+  auto& [from, to, at] = *crossing_;
+  const Real h = to.t - from.t;
+  at.t = from.t + Real(theta) * h;
   for (Index j = 0; j < sizes_.nu; ++j) {
-    at_.u[j] = hermite(theta, h, from_.u[j], to_.u[j], from_.v[j], to_.v[j]);
-    at_.v[j] = hermite(theta, h, from_.v[j], to_.v[j], from_.w[j], to_.w[j]);
+    at.u[j] = hermite(theta, h, from.u[j], to.u[j], from.v[j], to.v[j]);
+    at.v[j] = hermite(theta, h, from.v[j], to.v[j], from.w[j], to.w[j]);
   }
   for (Index j = 0; j < sizes_.nx; ++j) {
-    at_.x[j] = hermite(theta, h, from_.x[j], to_.x[j], from_.w[sizes_.nu + j], to_.w[sizes_.nu + j]);
+    at.x[j] = hermite(theta, h, from.x[j], to.x[j], from.w[sizes_.nu + j], to.w[sizes_.nu + j]);
   }
 }
 
@@ -140,17 +137,19 @@ void Amounts<Real>::between(double theta) {
 template <class Real>
 bool Amounts<Real>::cannotCross(Index i, const State<Real>& from, const State<Real>& to) {
   constexpr int kHalvings = 40;
-  from_ = from, to_ = to, at_ = from;
-  if (!findRates(from_) || !findRates(to_)) return false;
-  double above = 0, below = from_.x[i] < Real(0) ? 0 : 1;
+  if (!crossing_) crossing_ = std::make_unique<Crossing>();
+  crossing_->from = from, crossing_->to = to, crossing_->at = from;
+  State<Real>& at = crossing_->at;
+  if (!findRates(crossing_->from) || !findRates(crossing_->to)) return false;
+  double above = 0, below = from.x[i] < Real(0) ? 0 : 1;
   for (int k = 0; k < kHalvings && below > 0; ++k) {
     const double middle = (above + below) / 2;
     between(middle);
-    (at_.x[i] < Real(0) ? below : above) = middle;
+    (at.x[i] < Real(0) ? below : above) = middle;
   }
   between(below);
-  at_.x[i] = Real(0);
-  return findRates(at_) && at_.w[sizes_.nu + i] >= Real(0);
+  at.x[i] = Real(0);
+  return findRates(at) && at.w[sizes_.nu + i] >= Real(0);
 }
 
 template <class Real>

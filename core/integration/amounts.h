@@ -1,6 +1,7 @@
 // Remarks on components that the error control does not see, or that have a sign which they cannot have.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,15 @@ namespace irk {
 ///    cross zero (the rates are quasi-positive; Hundsdorfer & Verwer, Time-Dependent Advection-Diffusion-Reaction
 ///    Equations, I.7). One crossing with a negative rate shows that a component is none; it is not looked at again.
 /// Both are facts about a result that may be right; neither changes it. Evaluations are not counted. Allocates in its
-/// constructor only, but for `remark`.
+/// constructor, where a component first falls below zero, and in `remark`.
 template <class Real>
 class Amounts {
  public:
   /// Keeps references. `start` determines rates; `counters` are what it counts in.
   Amounts(const System<Real>& system, ConsistentStart<Real>& start, Counters& counters);
 
-  /// Begins an integration. `norm` is left with the weights of zero: update it before its next use.
-  void begin(const State<Real>& state, ErrorNorm<Real>& norm);
+  /// Begins an integration.
+  void begin(const State<Real>& state, const ErrorNorm<Real>& norm);
   /// Begins anew at a switch: a component that jumps below zero is none that cannot cross it.
   void restart(const State<Real>& state) {
     std::erase_if(never_, [&](Index i) { return isBelowZero(state, i) && !system_.nonNegative(i); });
@@ -49,6 +50,10 @@ class Amounts {
     return static_cast<double>(state.x[first_x_ + i]) < -least_[2 * sizes_.nu + first_x_ + i];
   }
   void lookBelowZero(const State<Real>& from, const State<Real>& to);
+  /// A step that crosses zero: its ends, and a point of its polynomial between them.
+  struct Crossing {
+    State<Real> from, to, at;
+  };
   bool cannotCross(Index i, const State<Real>& from, const State<Real>& to);
   bool findRates(State<Real>& state);
   void between(double theta);
@@ -65,7 +70,7 @@ class Amounts {
   Vec<double> largest_;       // magnitude so far, of small components
   std::vector<Index> never_;  // components of the scene's x that have not been below zero
   std::vector<Negative> negative_;
-  State<Real> from_, to_, at_;
+  std::unique_ptr<Crossing> crossing_;  // made for the first one
 };
 
 }  // namespace irk

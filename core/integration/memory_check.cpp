@@ -1,6 +1,5 @@
 #include "core/integration/memory_check.h"
 
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -13,27 +12,28 @@
 namespace irk {
 namespace {
 
-// A state at time t whose u, v, x differ from those of the start by up to 1 + their magnitude times `by`.
+// Sets `state` to one at time t whose u, v, x differ from those of the start by up to 1 + their magnitude times `by`.
 template <class Real>
-State<Real> moved(const State<Real>& start, const Real& t, double by) {
+void move(const State<Real>& start, const Real& t, double by, State<Real>& state) {
   using std::abs;
-  State<Real> state = start;
   state.t = t;
-  for (auto* part : {&state.u, &state.v, &state.x}) {
-    for (Real& value : *part) value += Real(by) * (Real(1) + Real(abs(value)));
-  }
-  return state;
+  const auto moveFrom = [by](const Vec<Real>& from, Vec<Real>& to) {
+    for (Index i = 0; i < to.size(); ++i) to[i] = from[i] + Real(by) * (Real(1) + Real(abs(from[i])));
+  };
+  moveFrom(start.u, state.u);
+  moveFrom(start.v, state.v);
+  moveFrom(start.x, state.x);
 }
 
 template <class Real>
-void requireSame(const Vec<Real>& first, const Vec<Real>& again, const Vec<Real>& magnitude, double t) {
+void requireSame(const auto& first, const auto& again, const auto& magnitude, const auto& time) {
   using std::abs;
   for (Index i = 0; i < first.size(); ++i) {
     const double difference = static_cast<double>(Real(abs(Real(again[i] - first[i]))));
     const bool finite = std::isfinite(difference);
     if (!finite || difference <= kEightDigits * static_cast<double>(magnitude[i])) continue;
     std::ostringstream text;
-    text << "row " << i << " of the residual (from 0 on) at t = " << t << " is " << static_cast<double>(first[i])
+    text << "row " << i << " of the residual (from 0 on) at t = " << time() << " is " << static_cast<double>(first[i])
          << ", and after evaluations elsewhere " << static_cast<double>(again[i])
          << " at the same point: a residual depends on its arguments only and keeps no history";
     throw Misuse(text.str());
@@ -51,25 +51,32 @@ void requireNoMemory(const System<Real>& system, const State<Real>& start, const
   const Real middle = start.t + (t_end - start.t) / Real(2);
   const State<Real> here = users.fromScene(start);
   requireState("System::fromScene", here, users.sizes());
-  const std::array<State<Real>, 3> points{here, moved(here, t_end, 0.01), moved(here, middle, 0.02)};
-  std::array<Vec<Real>, 3> first;
-  Vec<Real> again(users.sizes().n()), magnitude = Vec<Real>::Zero(again.size());
-  const auto evaluate = [&](const State<Real>& at, Vec<Real>& r) {
-    users.evaluate(Level::kFormulated, pointOf(at), VecView<Real>(r.data(), r.size()));
-  };
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    first[k].resize(again.size());
-    evaluate(points[k], first[k]);
-    for (Index i = 0; i < again.size(); ++i) {
-      if (std::isfinite(static_cast<double>(first[k][i])) && abs(first[k][i]) > magnitude[i]) {
-        magnitude[i] = abs(first[k][i]);
-      }
+  State<Real> elsewhere = here;
+  enum Column { kHere, kMoved, kFarther, kAgain, kMagnitude, kColumns };
+  Mat<Real> r(users.sizes().n(), kColumns);
+  r.col(kMagnitude).setZero();
+  const auto evaluate = [&](const State<Real>& at, Column to) {
+    users.evaluate(Level::kFormulated, pointOf(at), VecView<Real>(r.col(to).data(), r.rows()));
+    for (Index i = 0; i < r.rows(); ++i) {
+      const Real size = abs(r(i, to));
+      if (std::isfinite(static_cast<double>(size)) && size > r(i, kMagnitude)) r(i, kMagnitude) = size;
     }
-  }
-  for (const std::size_t k : {std::size_t{1}, std::size_t{0}}) {
-    evaluate(points[k], again);
-    requireSame(first[k], again, magnitude, sceneTime(users, points[k].t));
-  }
+  };
+  const auto evaluateMoved = [&](Column to) {
+    move(here, t_end, 0.01, elsewhere);
+    evaluate(elsewhere, to);
+  };
+  const auto requireAsBefore = [&](Column first, const Real& t) {
+    requireSame<Real>(r.col(first), r.col(kAgain), r.col(kMagnitude), [&] { return sceneTime(users, t); });
+  };
+  evaluate(here, kHere);
+  evaluateMoved(kMoved);
+  move(here, middle, 0.02, elsewhere);
+  evaluate(elsewhere, kFarther);
+  evaluateMoved(kAgain);
+  requireAsBefore(kMoved, t_end);
+  evaluate(here, kAgain);
+  requireAsBefore(kHere, here.t);
 }
 
 template void requireNoMemory(const System<double>&, const State<double>&, const double&);

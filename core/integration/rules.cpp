@@ -187,9 +187,7 @@ constexpr Rule kSystemsAndMethods[] = {
 };
 
 template <class Real>
-void describe(const Tableau<Real>& tableau, Facts& facts) {
-  const auto kept = structureOf(tableau);
-  const Structure<Real>& structure = *kept;
+void describe(const Tableau<Real>& tableau, const Structure<Real>& structure, Facts& facts) {
   facts.method = tableau.id;
   facts.determines_algebraic = structure.allowsAlgebraic();
   facts.invertible = structure.regular && structure.first == 0;
@@ -223,7 +221,9 @@ void requireLegal(const IntegratorOptions& options, const System<Real>& system, 
   describe(system, facts);
   if (schemes.size() == 0) require(kSystemsAndMethods, facts);
   for (std::size_t i = 0; i < schemes.size(); ++i) {
-    describe(schemes.tableau(i), facts);
+    const Tableau<Real>& tableau = schemes.tableau(i);
+    // The first member's scheme is needed anyway.
+    i == start ? describe(tableau, schemes[i], facts) : describe(tableau, *structureOf(tableau), facts);
     require(kSystemsAndMethods, facts);
   }
 }

@@ -41,7 +41,6 @@ Trajectory<Real>::Trajectory(const System<Real>& system, const SchemeList<Real>&
              jacobian_.differentiator().scratch()),
       amounts_(system, start_, counters),
       switches_(system),
-      state_(system.sizes()),
       next_(system.sizes()) {
   if (system.errorPowers().isIndex3()) {
     projection_ = std::make_unique<VelocityProjection<Real>>(system, options.derivatives, counters);

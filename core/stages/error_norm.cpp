@@ -64,26 +64,33 @@ ErrorNorm<Real>::ErrorNorm(const System<Real>& system, const Tolerances& toleran
       powers_(system.errorPowers()),
       index3_(powers_.isIndex3()),
       tolerances_(tolerances),
-      given_scale_(componentScale(sizes_, scale)),
+      scale_(componentScale(sizes_, scale)),
       weight_(Vec<double>::Ones(sizes_.components())) {
-  if (tolerances.norm == NormKind::kAbsolute) given_scale_.setOnes();
-  scale_ = given_scale_;
+  if (tolerances.norm == NormKind::kAbsolute) scale_.setOnes();
 }
 
 template <class Real>
 void ErrorNorm<Real>::setScale(const Vec<double>& first) {
-  scale_ = given_scale_;
-  scale_.head(first.size()) = first;
+  first_scale_ = first;
+}
+
+template <class Real>
+double ErrorNorm<Real>::weightOf(Index i, double value) const {
+  const double scale = i < first_scale_.size() ? first_scale_[i] : scale_[i];
+  const bool absolute = tolerances_.norm == NormKind::kAbsolute;
+  return absolute ? tolerances_.atol * std::min(1.0, scale + std::abs(value)) : tolerances_.of(scale, value);
+}
+
+template <class Real>
+void ErrorNorm<Real>::weightsAtZero(Vec<double>& weights) const {
+  for (Index i = 0; i < weights.size(); ++i) weights[i] = weightOf(i, 0);
 }
 
 template <class Real>
 void ErrorNorm<Real>::update(const State<Real>& y) {
-  const bool absolute = tolerances_.norm == NormKind::kAbsolute;
   const auto weigh = [&](Index offset, const auto& part) {
     for (Index i = 0; i < part.size(); ++i) {
-      const double scale = scale_[offset + i], value = static_cast<double>(part[i]);
-      weight_[offset + i] =
-          absolute ? tolerances_.atol * std::min(1.0, scale + std::abs(value)) : tolerances_.of(scale, value);
+      weight_[offset + i] = weightOf(offset + i, static_cast<double>(part[i]));
     }
   };
   weigh(0, y.u);

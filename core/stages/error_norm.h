@@ -29,6 +29,8 @@ class ErrorNorm {
   /// or atol (scale_i + |y_i|) where that is smaller, which only a scale of setScale makes.
   void update(const State<Real>& y);
 
+  /// Writes the weights of components (u, v, x) that are zero; 2 nu + nx numbers.
+  void weightsAtZero(Vec<double>& weights) const;
   /// The weights sc of (u, v, x, z); 2 nu + nx + nz numbers.
   const Vec<double>& weights() const { return weight_; }
   /// Whether the system is in index 3 (ErrorPowers::isIndex3).
@@ -54,6 +56,7 @@ class ErrorNorm {
   double increment(const Mat<Real>& dW, Index first, const Vec<double>& squares, int threads = 1) const;
 
  private:
+  double weightOf(Index i, double value) const;
   double total(double sum_of_squares) const;
   double zFactor(double h, Index i) const;
   template <class F>
@@ -63,8 +66,8 @@ class ErrorNorm {
   const ErrorPowers& powers_;
   bool index3_;
   Tolerances tolerances_;
-  Vec<double> given_scale_;  // of u, v, x, z
-  Vec<double> scale_;        // of u, v, x, z
+  Vec<double> scale_;        // of u, v, x, z, as given to the constructor
+  Vec<double> first_scale_;  // of setScale
   Vec<double> weight_;       // of u, v, x, z
   bool leaves_multipliers_out_ = false;
 };

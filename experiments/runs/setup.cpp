@@ -135,7 +135,9 @@ Setup<Real> setUp(RunSpec spec, Scene<Real> scene) {
 template <class Real>
 Integrator<Real> newIntegrator(const RunSpec& spec, const Scene<Real>& scene) {
   const auto system = scene.system(systemOptions(spec, scene));
-  return {system, methodsOf<Real>(spec), spec.options, toleranceScale(scene, spec, system->sizes())};
+  Vec<double> scale = toleranceScale(scene, spec, system->sizes());
+  if ((scale.array() == 1).all()) scale = {};  // the same for the integrator, which then copies none
+  return {system, methodsOf<Real>(spec), spec.options, scale};
 }
 
 template <class Real>

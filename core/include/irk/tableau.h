@@ -52,11 +52,18 @@ struct Methods {
   std::size_t start = 0;                                     ///< index of the member that takes the first step
 
   Methods(Tableau<Real> one)  // NOLINT: one method is a method
-      : Methods(std::vector<Tableau<Real>>{std::move(one)}, 0) {}
+      : Methods(alone(std::move(one)), 0) {}
   Methods(std::vector<Tableau<Real>> all, std::size_t first)
       : shared(std::make_shared<const std::vector<Tableau<Real>>>(std::move(all))), start(first) {}
 
   const std::vector<Tableau<Real>>& members() const { return *shared; }
+
+ private:
+  static std::vector<Tableau<Real>> alone(Tableau<Real> one) {
+    std::vector<Tableau<Real>> all;
+    all.push_back(std::move(one));  // a list in braces would copy it
+    return all;
+  }
 };
 
 }  // namespace irk

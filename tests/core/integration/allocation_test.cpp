@@ -79,9 +79,9 @@ TEST(Allocation, ConstructorsOfSmallSystemsAllocateLittle) {
     counting = false;
     return allocations;
   };
-  EXPECT_LE(allocationsOfConstructor(makeTableau<double>("radau_iia_3")), 125);
+  EXPECT_LE(allocationsOfConstructor(makeTableau<double>("radau_iia_3")), 90);
   o.order = OrderControl::kVariable;
-  EXPECT_LE(allocationsOfConstructor(makeMethods<double>("radau_iia", 13, 3)), 180);
+  EXPECT_LE(allocationsOfConstructor(makeMethods<double>("radau_iia", 13, 3)), 105);
 }
 
 TEST(Allocation, StepsAllocateNothing) {
