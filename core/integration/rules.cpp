@@ -221,9 +221,7 @@ void requireLegal(const IntegratorOptions& options, const System<Real>& system, 
   describe(system, facts);
   if (schemes.size() == 0) require(kSystemsAndMethods, facts);
   for (std::size_t i = 0; i < schemes.size(); ++i) {
-    const Tableau<Real>& tableau = schemes.tableau(i);
-    // The first member's scheme is needed anyway.
-    i == start ? describe(tableau, schemes[i], facts) : describe(tableau, *structureOf(tableau), facts);
+    describe(schemes.tableau(i), schemes.structure(i), facts);
     require(kSystemsAndMethods, facts);
   }
 }

@@ -21,6 +21,7 @@ template <class Real, int Columns>
 void requireFinite(const Tableau<Real>& tableau, const char* name,
                    const Eigen::Matrix<Real, Eigen::Dynamic, Columns>& numbers) {
   using std::isfinite;  // for double; other scalars are found by their namespace
+  if (numbers.allFinite()) return;
   for (Index i = 0; i < numbers.size(); ++i) {
     if (isfinite(numbers.data()[i])) continue;
     const Index row = i % numbers.rows(), column = i / numbers.rows();

@@ -8,18 +8,29 @@
 
 namespace irk {
 
+/// The methods of an integration, checked.
+template <class Real>
+struct CheckedMembers {
+  std::shared_ptr<const std::vector<Tableau<Real>>> tableaus;
+  std::vector<std::shared_ptr<const Structure<Real>>> structures;  ///< none for one method, whose scheme has it
+};
+/// Throws Misuse as requireTableau. In double the members of a family are checked once in a process.
+template <class Real>
+std::shared_ptr<const CheckedMembers<Real>> checkedMembers(const Methods<Real>& methods);
+
 /// Variable order may use up to a hundred members of a family but needs few: members that are not used cost almost
 /// nothing. Use one object per thread.
 template <class Real>
 class SchemeList {
  public:
   /// Throws Misuse as requireTableau.
-  explicit SchemeList(const Methods<Real>& methods) : tableaus_(methods.shared), made_(tableaus_->size()) {
-    for (const auto& tableau : *tableaus_) requireTableau(tableau);
-  }
+  explicit SchemeList(const Methods<Real>& methods) : members_(checkedMembers(methods)), made_(size()) {}
 
-  std::size_t size() const { return tableaus_->size(); }
-  const Tableau<Real>& tableau(std::size_t i) const { return (*tableaus_)[i]; }
+  std::size_t size() const { return members_->tableaus->size(); }
+  const Tableau<Real>& tableau(std::size_t i) const { return (*members_->tableaus)[i]; }
+  const Structure<Real>& structure(std::size_t i) const {
+    return members_->structures.empty() ? (*this)[i] : *members_->structures[i];
+  }
   /// The scheme of member i, made in the first call; lives as long as the list.
   const Scheme<Real>& operator[](std::size_t i) const {
     if (!made_[i]) made_[i] = schemeOf(tableau(i));
@@ -27,7 +38,7 @@ class SchemeList {
   }
 
  private:
-  std::shared_ptr<const std::vector<Tableau<Real>>> tableaus_;
+  std::shared_ptr<const CheckedMembers<Real>> members_;
   mutable std::vector<std::shared_ptr<const Scheme<Real>>> made_;
 };
 
