@@ -81,6 +81,7 @@ template <class Real>
 void Defect<Real>::begin(double length) {
   length_ = length;
   next_ = 0;
+  forget();
 }
 
 std::int64_t looksInStep(double looks, double h, double length, std::int64_t most) {
@@ -151,9 +152,17 @@ template <class Real>
 auto Defect<Real>::largest(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to)
     -> Result {
   most_.setZero();
-  const std::int64_t looks = looksInStep(looks_, static_cast<double>(stages.h), length_, points_.period());
+  const double t = static_cast<double>(stages.t), end = static_cast<double>(Real(stages.t + stages.h));
+  const bool follows = seen_.has(t);
+  const double h = follows && seen_.has(end) ? 0 : static_cast<double>(stages.h);
+  const std::int64_t looks = looksInStep(looks_, h, length_, points_.period());
   Result largest = among(next_, looks, from, stages);
   next_ += looks;
+  if (largest.outcome == Outcome::kSuccess && largest.error <= 1) {
+    seen_ = {follows ? seen_.first : t, follows ? std::max(seen_.last, end) : end};
+  } else {
+    forget();
+  }
   most_.setZero();  // a filtered residual may be larger than that of another point and smaller in each row
   if (looks_at_start_) add(largest, atEnd(from, from.t, from.d, scheme_.start, stages));
   most_.setZero();

@@ -51,7 +51,8 @@ class MovingPoints {
 ///
 /// A step is looked at in one or more moving points (MovingPoints), so that nothing can hide from all steps, and runs
 /// repeat bit for bit: in its part of StepOptions::looks, rounded up. An input that lasts longer than 2 / looks of the
-/// interval cannot be missed. Where the last stage is before the step's end, the end is looked at as well.
+/// interval cannot be missed. Where the last stage is before the step's end, the end is looked at as well. A step inside
+/// an interval that has been looked at, as one that is solved again to its switch, is looked at in one point.
 ///
 /// Owns scratch; keeps references.
 template <class Real>
@@ -65,6 +66,8 @@ class Defect {
 
   /// A new integration over this length; its points begin anew.
   void begin(double length);
+  /// After a change of mode: what was looked at before says nothing about the steps that follow.
+  void forget() { seen_ = {}; }
 
   using Result = typename EmbeddedEstimate<Real>::Result;
   /// The largest e(theta) of the solved step from `from` to `to`. Counts u, v and x; constraints of index 2 and 3 that
@@ -86,6 +89,11 @@ class Defect {
   double looks_;  // over the interval
   double length_ = 0;
   std::int64_t next_ = 0;
+  struct Interval {
+    double first = 0, last = -1;
+    bool has(double t) const { return first <= t && t <= last; }
+  };
+  Interval seen_;  // whose points have been looked at and have shown no error above the tolerance
   MovingPoints<Real> points_;
   Vec<Real> most_;           // the largest residuals of the step's points, n
   Vec<Real> t_;              // times of the points of a block

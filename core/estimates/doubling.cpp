@@ -93,6 +93,7 @@ class Doubling : public StepAttempt<Real> {
   void forget() override {
     whole_.forget();
     half_.forget();
+    if (looks_) looks_->defect.forget();
   }
   void begin(double length) override {
     forget();

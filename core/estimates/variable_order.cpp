@@ -169,6 +169,7 @@ template <class Real>
 void VariableOrder<Real>::forget(Member& m) {
   if (m.epoch == epoch_) return;
   m.stepper.forget();
+  m.defect.forget();
   m.epoch = epoch_;
 }
 

@@ -1,5 +1,6 @@
 #include "core/stages/scheme_list.h"
 
+#include <cstdint>
 #include <string>
 #include <type_traits>
 
@@ -21,7 +22,7 @@ std::shared_ptr<const CheckedMembers<Real>> checkedMembers(const Methods<Real>& 
   if constexpr (std::is_same_v<Real, double>) {
     if (methods.shared->size() > 1) {
       static Kept<CheckedMembers<double>> all;  // an address that it keeps is not used again
-      const auto* const address = methods.shared.get();
+      const auto address = reinterpret_cast<std::uintptr_t>(methods.shared.get());
       return all.of(std::string(reinterpret_cast<const char*>(&address), sizeof address), check);
     }
   }

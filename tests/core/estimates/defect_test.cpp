@@ -183,6 +183,38 @@ TEST(Defect, LooksAtTheEndWhereNoStageIs) {
   EXPECT_NEAR(result.error, at_end, 1e-6 * at_end);
 }
 
+struct CountedPair {
+  long* evaluated;
+  ForcedPair pair = {};
+  Sizes sizes() const { return pair.sizes(); }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    ++*evaluated;
+    pair.residual(p, r);
+  }
+};
+
+// A step that is solved again to its switch lies inside the one that was looked at.
+TEST(Defect, LooksOnceAtAnIntervalThatItHasSeen) {
+  long evaluated = 0;
+  SolvedStepOf<CountedPair> step(CountedPair{&evaluated}, "radau_iia_3", 1e-6);
+  State<double> start(step.system->sizes());
+  start.u[0] = 0.3, start.x[0] = 0.7;
+  step.solve(start, 0.01);
+  const auto pointsOf = [&] {
+    const long before = evaluated;
+    const auto result = step.defect.largest(step.from, step.stepper.stages(), step.to);
+    EXPECT_EQ(result.outcome, Outcome::kSuccess);
+    EXPECT_LT(result.error, 1);
+    return evaluated - before;
+  };
+  const long all = pointsOf();
+  EXPECT_GE(all, step.options.step.looks);
+  EXPECT_EQ(pointsOf(), 1);
+  step.defect.forget();
+  EXPECT_EQ(pointsOf(), all);
+}
+
 /// x' = -x + 20 while |t - centre| < width / 2, which nobody declares.
 struct UndeclaredPulse {
   double centre, width;
@@ -210,6 +242,46 @@ TEST(Defect, FindsAPulseThatLastsAFiftiethOfTheInterval) {
         const auto s = integrate<double>(pulse, start, 2, makeTableau<double>(method), options);
         ++runs;
         wrong += s.outcome == Outcome::kSuccess && std::abs(s.state.x[0] - pulse.at(2)) > 100e-4;
+      }
+    }
+  }
+  EXPECT_EQ(wrong, 0) << "of " << runs;
+}
+
+/// The same pulse, which acts only behind a switch at the time 1. y is the time.
+struct PulseBehindASwitch {
+  UndeclaredPulse pulse;
+  Sizes sizes() const { return {.nx = 2, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::abs;
+    const bool acts = p.d[0] > T(0.5) && abs(p.t - pulse.centre) < T(pulse.width / 2);
+    r.x[0] = -p.x[0] + (acts ? T(20) : T(0)) - p.k[0];
+    r.x[1] = T(1) - p.k[1];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1) : T(p.x[1] - 1.0);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1);
+  }
+};
+
+// The step over the switch has looked behind it, too, but in the mode before.
+TEST(Defect, LooksAgainInANewMode) {
+  int runs = 0, wrong = 0;
+  for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
+    for (const bool doubles : {false, true}) {
+      for (double centre = 1.03; centre < 1.4; centre += 0.007) {
+        const PulseBehindASwitch problem{{centre, 0.04}};
+        State<double> start(problem.sizes());
+        start.x[0] = 1;
+        const auto options = doubles ? adaptive(1e-4) : embedded(1e-4);
+        const auto s = integrate<double>(problem, start, 2, makeTableau<double>(method), options);
+        ++runs;
+        wrong += s.outcome == Outcome::kSuccess && std::abs(s.state.x[0] - problem.pulse.at(2)) > 100e-4;
       }
     }
   }
