@@ -141,6 +141,11 @@ Part partOf(const toml::table& table, const std::string& file) {
   part.confirmed = reader.range("");
   part.clean = reader.range("case_");
   requireThresholds(reader, part);
+  part.yes_or_no = reader.flag("yes_or_no");
+  const Range yes = part.clean;
+  if (part.yes_or_no && !(yes.low == 1 && !yes.low_open && yes.high == kInfinity)) {
+    reader.refuse("yes_or_no: a case is 1 or 0, so that case_at_least = 1 is expected");
+  }
   part.multibody_only = reader.flag("multibody_only");
   part.not_applied = {reader.textOr("not_paper", ""), reader.textOr("not_best", "")};
   if (!part.not_applied[0].empty() && !part.not_applied[1].empty()) {

@@ -49,6 +49,7 @@ struct Part {
   Statistic statistic = Statistic::kMedian;
   Range confirmed = {};                         ///< of the statistic: median and share
   Range clean = {};                             ///< of a case: share and existence
+  bool yes_or_no = false;                       ///< a case is 1 or 0, and `clean` is at least 1
   bool multibody_only = false;                  ///< only multibody systems vote
   std::array<std::string, 2> not_applied = {};  ///< by setting: why the part does not apply to it; empty if it does
 };

@@ -114,9 +114,6 @@ std::string claimText(const ClaimFindings& findings) {
   return text;
 }
 
-// Whether the measure of a case is 1 or 0.
-bool answersYesOrNo(const Part& part) { return part.measured.starts_with("1 if"); }
-
 }  // namespace
 
 std::string conditionText(const Part& part) {
@@ -128,7 +125,7 @@ std::string conditionText(const Part& part) {
       return fmt::format("{} {:.4g} % {}", part.confirmed.low_open ? "above" : "at least", 100 * part.confirmed.low,
                          countedText(part));
     case Statistic::kExistence:
-      return answersYesOrNo(part) ? "one case shows it" : fmt::format("one case is {}{}", rangeText(part.clean), unit);
+      return part.yes_or_no ? "one case shows it" : fmt::format("one case is {}{}", rangeText(part.clean), unit);
     case Statistic::kReport:
       return "";
   }
@@ -137,7 +134,7 @@ std::string conditionText(const Part& part) {
 
 std::string countedText(const Part& part) {
   if (part.statistic != Statistic::kShare) return "";
-  if (answersYesOrNo(part)) return "of the cases show it";
+  if (part.yes_or_no) return "of the cases show it";
   return fmt::format("of the cases are {}{}", rangeText(part.clean), part.unit.empty() ? "" : " " + part.unit);
 }
 

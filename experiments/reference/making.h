@@ -12,7 +12,8 @@
 namespace irk {
 
 struct ReferenceLimits {
-  double cpu_s = 60;  ///< > 0; CPU time of the four runs in 50 digits together, and again of those in double
+  /// > 0. CPU time of four runs together: of those in 50 digits, and of each of two attempts in double.
+  double cpu_s = 60;
   /// Above this many unknowns the four runs are made in double only: one factorization in 50 digits takes minutes, and
   /// the CPU time is looked at between steps only.
   Index most_unknowns = 100;

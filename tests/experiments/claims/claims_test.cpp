@@ -97,7 +97,7 @@ TEST(Claims, Conditions) {
   one.clean = {.high = 4};
   EXPECT_EQ(conditionText(one), "at least 95 % of the cases are at most 4 times");
   EXPECT_EQ(countedText(one), "of the cases are at most 4 times");
-  one.measured = "1 if, as steps become shorter, Newton's method fails; else 0";
+  one.yes_or_no = true;
   EXPECT_EQ(conditionText(one), "at least 95 % of the cases show it");
   one.statistic = Statistic::kExistence;
   EXPECT_EQ(conditionText(one), "one case shows it");

@@ -75,6 +75,8 @@ TEST(ClaimProtocol, RefusesWithPlace) {
   EXPECT_TRUE(containsAll(refusal(file(good + "\ncase_above = 1")), {"share"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"share\"\nat_least = 95\ncase_above = 1")), {"0 to 1"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"existence\"")), {"case_"}));
+  EXPECT_TRUE(containsAll(refusal(file("statistic = \"existence\"\ncase_at_least = 2\nyes_or_no = true")),
+                          {"yes_or_no", "case_at_least = 1"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"report\"\nabove = 1")), {"median or a share"}));
   EXPECT_TRUE(containsAll(refusal(file(good + "\nnot_best = \"a\"\nnot_paper = \"b\"")), {"no setting"}));
   EXPECT_TRUE(containsAll(refusal(file("statistic = \"median\"\nat_least = \"2\"")), {"f.toml:14", "number"}));
