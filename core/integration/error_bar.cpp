@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "core/base/constants.h"
-#include "core/integration/small_motion.h"
+#include "core/integration/small_components.h"
+#include "core/integration/unstable_rest.h"
 #include "core/options/fixed_steps.h"
 #include "core/system/along_rates.h"
 #include "irk/multiprecision.h"
