@@ -16,7 +16,8 @@ namespace irk {
 // Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
 // ends of it, and by their rate in between, so that a component that passes through zero is none of them. One whose
 // estimated error is small beside its own size, by the relative tolerance of the integration that measures, is none of
-// them either: it is as accurate as control by its size would make it.
+// them either: it is as accurate as control by its size would make it. Nor is the velocity of a position that is above
+// its tolerance: such a motion rests away from zero, where a velocity below round-off has no digits to control.
 template <class Real>
 class SmallComponents {
  public:
@@ -42,7 +43,7 @@ class SmallComponents {
     forEach(step.state, [&](Component& c, Index i, double y, double rate) {
       if (c.first == 0) c.first = y;
       const bool below = c.begins_below && y > 0 && y + h * rate < c.tolerance;
-      if (!c.small && below && !isAccurate(step, i, y)) c.small = found_ = true;
+      if (!c.small && below && !isOfLargePosition(step, i) && !isAccurate(step, i, y)) c.small = found_ = true;
       c.begins_below = y < c.tolerance;
     });
   }
@@ -77,6 +78,12 @@ class SmallComponents {
     double first = 0;  // the first magnitude that is not zero
     bool starts_at_zero = false, begins_below = false, small = false;
   };
+  bool isOfLargePosition(const StepRecord<Real>& step, Index i) const {
+    const Index nu = step.state.u.size();
+    if (i < nu || i >= 2 * nu) return false;
+    const double position = std::abs(static_cast<double>(step.state.u[i - nu]));
+    return !(position < of_[static_cast<std::size_t>(i - nu)].tolerance);
+  }
   bool isAccurate(const StepRecord<Real>& step, Index i, double y) const {
     if (!step.errors) return false;
     const State<Real>& e = *step.errors;
