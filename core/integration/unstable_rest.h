@@ -48,13 +48,14 @@ class UnstableRest {
     // Once in N steps, the eigenvalues of N components take about a tenth of the time of a bar; those of a few take as
     // long as a step and are computed in every tenth one (judged by 2700 runs of systems with unstable rests: no
     // outcome differs). A motion that rests takes few, long steps, in which it may become unstable: there it is once in
-    // N, and so often in a step that no more than a twentieth of the interval is passed over. A start may lie near a
-    // rest, and steps may leave a rest as soon as they no longer resolve its growth.
-    const int parts = rests ? partsOf(step.h) : 1;
+    // N, and no more than a twentieth of the interval is passed over. A start may lie near a rest, and steps may leave
+    // a rest as soon as they no longer resolve its growth.
+    const double unseen = std::min(since_look_, rests_for_);
+    const int parts = rests ? partsOf(unseen) : 1;
     if (--look_in_ > 0 && !(resolved_ * step.h > 1) && !comes_to_rest && parts == 1) return;
     look_in_ = rests ? tolerance_.size() : std::max<Index>(tolerance_.size(), 10);
     for (int part = parts; part-- > 1 && !found_;) {  // the state at rest is that of the end
-      const double back = step.h * part / parts;
+      const double back = unseen * part / parts;
       within_ = step.state;
       within_.t -= back;
       judge(within_, step.h, true, left + back, since_look_ / parts);
@@ -75,10 +76,7 @@ class UnstableRest {
     return !rests_ || grown_ > std::log((tolerance_.array() / round_off_.array()).minCoeff());
   }
   // From the next integration on decays are not followed; false if they were not.
-  bool leaveDecays() {
-    leaves_decays_ = true;
-    return std::exchange(through_decays_, false);
-  }
+  bool leaveDecays() { return std::exchange(through_decays_, false); }
 
  private:
   // The parts of the interval in which a motion that rests is looked at.
@@ -86,21 +84,20 @@ class UnstableRest {
 
   // Motions around 1 that had decayed moved by up to 70 eps.
   static double roundOff() { return 100 * static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon())); }
-  int partsOf(double h) const { return static_cast<int>(std::ceil(std::min(1.0, h / length_) * kParts)); }
+  int partsOf(double time) const { return static_cast<int>(std::ceil(std::min(1.0, time / length_) * kParts)); }
   // Looks at a state in, or at the end of, a step of size h; `passed`: the time since the last look.
   void judge(const State<Real>& state, double h, bool rests, double left, double passed) {
     double growth = growth_.rate(state, left), living = 0;
     const bool too_fast = growth * h > 1;
     resolved_ = too_fast ? 0 : growth;
     const bool stays = std::max(h, length_ / kParts) * fastest_ < 1;  // short steps seem to rest
-    if (stays && growth == 0 && fastest_ > 0) decays_ = !leaves_decays_;
+    if (stays && growth == 0 && fastest_ > 0) decays_ = true;
     if (through_decays_ || ((too_fast || (follows_ && growth > 0)) && !rests)) {
       const auto motions = growth_.motions(state, left, tolerance_, round_off_, rests_for_);
       if (!rests) growth = motions ? motions->resting : 0;
       if (rests && motions) living = followDecay(*motions, passed);
     }
-    const bool is_followed = decays_ ? through_decays_ : follows_ || !too_fast;
-    if (growth > 0 && !is_followed) {
+    if (growth > 0 && too_fast && !follows_) {
       found_ = follows_ = true;
       through_decays_ = decays_;
       t_ = static_cast<double>(state.t);
@@ -112,7 +109,6 @@ class UnstableRest {
   }
   // Keeps account of what is left of a motion that rests; returns the largest |lambda| that has to be followed.
   double followDecay(const typename Growth<Real>::Motions& motions, double passed) {
-    if (!decays_) return motions.living;
     if (motions.resting == 0 && motions.living == 0) {
       vanished_ = true;
       grown_ = 0;
@@ -146,7 +142,6 @@ class UnstableRest {
   Real t_end_;
   bool found_ = false, follows_ = false;
   bool through_decays_ = false;  // follows decays as well
-  bool leaves_decays_ = false;   // must not
   bool rests_ = false;           // nothing moved by a tolerance in the last step
   bool decays_ = false;          // this integration has come to a rest in which nothing grew
   bool vanished_ = false;        // nothing was left of the motion when it began to grow
