@@ -28,11 +28,6 @@ double StateJudge<Real>::speed(const State<Real>& s) {
   return rates_.cwiseAbs().cwiseQuotient(tolerance_).maxCoeff();
 }
 
-template <class Real>
-double StateJudge<Real>::exponentToTolerance() const {
-  return std::log((tolerance_.array() / round_off_.array()).minCoeff());
-}
-
 void LookTimes::begin() {
   rests_ = comes_to_rest_ = false;
   rests_for_ = since_look_ = resolved_ = 0;
@@ -149,12 +144,6 @@ void UnstableRest<Real>::limitSteps(double growth, double living) {
     if (times_.rests()) fastest = std::max(fastest, LookTimes::kParts / length_);
   }
   limit_ = fastest > 0 ? 1 / fastest : std::numeric_limits<double>::infinity();
-}
-
-template <class Real>
-bool UnstableRest<Real>::vanished() const {
-  if (!vanished_ || grown_ == 0) return false;
-  return !times_.rests() || grown_ > judge_.exponentToTolerance();
 }
 
 template <class Real>

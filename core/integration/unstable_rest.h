@@ -28,8 +28,6 @@ class StateJudge {
   std::optional<typename Growth<Real>::Motions> motions(const State<Real>& state, double time, double rests_for) {
     return growth_.motions(state, time, tolerance_, round_off_, rests_for);
   }
-  /// A motion that has fallen to round-off reaches the tolerance when it has grown by e to this power.
-  double exponentToTolerance() const;
 
  private:
   Growth<Real> growth_;
@@ -101,9 +99,8 @@ class UnstableRest {
   double limit() const { return limit_; }
   /// When the rest that was found is unstable.
   double t() const { return t_; }
-  /// Whether the deviation has fallen below round-off in a decay, and has left the rest afterwards or could have done
-  /// so.
-  bool vanished() const;
+  /// Whether the deviation has fallen below round-off in a decay, has grown, and has left the rest.
+  bool vanished() const { return vanished_ && grown_ > 0 && !times_.rests(); }
   /// From the next integration on decays are not followed; false if they were not.
   bool leaveDecays();
 
