@@ -80,6 +80,35 @@ TEST(ErrorBarOfSmallComponents, CoversAnUnstableEquilibriumInSecondOrderForm) {
   }
 }
 
+/// A pendulum in its angle, measured from the horizontal: it stands upright at `rest`, and hangs at rest + pi.
+struct DampedPendulum {
+  double rest, damping;
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sin;
+    r.u[0] = 100.0 * sin(p.u[0] - rest) - damping * p.v[0] - p.a[0];
+  }
+};
+
+// Its velocity stays below the tolerance, but not its position: near round-off there is nothing to control, and how it
+// leaves the rest is followed by its growth.
+TEST(ErrorBarOfSmallComponents, AVelocityAtARestAwayFromZeroIsNoneOfThem) {
+  for (const double damping : {1.0, 10.0, 30.0}) {
+    for (const double deviation : {1e-9, -1e-12, 1e-14}) {
+      for (const double tol : {1e-4, 1e-7}) {
+        const DampedPendulum problem{1.5, damping};
+        State<double> start(problem.sizes());
+        start.u[0] = problem.rest + deviation;
+        const MeasuredRun run = measuredRun(problem, start, 40, embedded(tol));
+        EXPECT_EQ(run.bar.remark, "") << damping << ' ' << deviation << ' ' << tol;
+        EXPECT_LT(run.steps, 5000) << damping << ' ' << deviation << ' ' << tol;
+        EXPECT_NEAR(run.second.state.u[0], problem.rest + std::copysign(M_PI, deviation), 10 * tol) << damping;
+      }
+    }
+  }
+}
+
 /// x' = -x + 1e-8 sin(1e6 t): a fast motion far below the tolerance.
 struct FastAndSmall {
   Sizes sizes() const { return {.nx = 1}; }

@@ -178,6 +178,33 @@ TEST(UnstableRest, OneThatBecomesUnstableLaterIsFollowedThroughItsDecay) {
   }
 }
 
+/// The same beside ten components that rest, so that eigenvalues are computed once in twelve steps.
+struct LateSpiralBesideTen {
+  LateSpiral spiral;
+  Sizes sizes() const { return {.nx = 12}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    spiral.residual(p, r);
+    for (Index i = 2; i < 12; ++i) r.x[i] = 3.0 - p.x[i] - p.k[i];
+  }
+};
+
+// Twelve steps of a twentieth of the interval are more than the time from the turn to the return.
+TEST(UnstableRest, StepsOfATwentiethOfTheIntervalPassOverNothing) {
+  for (const double part : {0.03, 0.04, 0.049, 0.06}) {
+    const LateSpiralBesideTen problem{{1, 3, 16}};
+    State<double> start(problem.sizes());
+    start.x.setConstant(3);
+    start.x.head(2) << 2, 1;
+    const double t = 2 * problem.spiral.turn();
+    IntegratorOptions options = embedded(1e-3);
+    options.step.h_max = part * t;
+    const MeasuredRun run = measuredRun(problem, start, t, options);
+    EXPECT_NEAR(std::hypot(run.second.state.x[0] - 1, run.second.state.x[1] - 1), 1, 0.3) << part;
+    EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
+  }
+}
+
 /// The same beside a component that follows one of it, with a time constant of 1e-4, and one of its own.
 struct LateSpiralBeside {
   LateSpiral spiral;
@@ -228,6 +255,27 @@ TEST(UnstableRest, ADecayToNothingAfterGrowthIsNoReasonForARemark) {
   const MeasuredRun run = measuredRun(TenPeriods{}, start, TenPeriods::kEnd + 1, embedded(1e-3));
   EXPECT_NEAR(run.second.state.x[0], 1, 1e-4);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
+}
+
+/// x decays to nothing around 1, is moved by a push at t = 3, decays by e^-15 from there on, and grows again.
+struct PushedAfterDecay {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::exp;
+    using std::tanh;
+    const T from_push = 10.0 * (p.t - 3.0),
+            rate = 10.0 * tanh(10.0 * (p.t - 4.5)) - 20.0 * (1.0 - tanh(10.0 * (p.t - 2.5)));
+    r.x[0] = rate * (p.x[0] - 1.0) + 5.0 * exp(-from_push * from_push) - p.k[0];
+  }
+};
+
+TEST(UnstableRest, APushAfterADecayToNothingIsNoReasonForARemark) {
+  State<double> start({.nx = 1});
+  start.x << 2;
+  const MeasuredRun run = measuredRun(PushedAfterDecay{}, start, 6, embedded(1e-3));
+  EXPECT_GT(std::abs(run.second.state.x[0] - 1), 0.1) << "it is pushed from the rest";
+  EXPECT_EQ(run.bar.remark, "");
 }
 
 // Two equal eigenvalues: each motion has an eigenvector of its own.
