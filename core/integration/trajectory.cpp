@@ -276,7 +276,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     if (report.determined && !(projection_ && stops)) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
-    blamed_ = at.outcome == Outcome::kSuccess ? switches_.due() : at.index;
+    blamed_ = at.outcome == Outcome::kSuccess ? switches_.dueBeyondRoundOff(state_) : at.index;
     if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;
   }
   ++counters_.chattering;

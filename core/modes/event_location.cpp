@@ -32,7 +32,7 @@ Real epsilon() {
 
 template <class Real>
 EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
-    : switches_(system), scan_(system), tolerance_(tolerance), moved_(system.sizes()) {}
+    : switches_(system), scan_(system), tolerance_(tolerance) {}
 
 template <class Real>
 Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
@@ -118,29 +118,6 @@ Real EventLocator<Real>::resolution(const State<Real>& from, const Real& h) cons
   return Real(4) * epsilon<Real>() * scale + Real(kTimeTolerance * std::min(tolerance_, 1e-3)) * h;
 }
 
-// Round-off of function i at `state`: the largest change of g when all components of u, v, x, a, k and z change by
-// their last digits, with equal and with alternating signs.
-template <class Real>
-Real EventLocator<Real>::noiseOf(const State<Real>& state, Index i) {
-  using std::abs;
-  const Real g = switches_.g()[i];
-  Real noise(0);
-  for (const bool alternating : {false, true}) {
-    moved_ = state;
-    int sign = 1;
-    for (auto* part : {&moved_.u, &moved_.v, &moved_.x, &moved_.w}) {
-      for (Real& y : *part) {
-        y += Real(sign * kLastDigits.value) * epsilon<Real>() * abs(y);
-        if (alternating) sign = -sign;
-      }
-    }
-    if (switches_.evaluate(moved_).outcome != Outcome::kSuccess) continue;
-    const Real change = abs(Real(switches_.g()[i] - g));
-    if (change > noise) noise = change;
-  }
-  return noise;
-}
-
 namespace {
 
 /// The step sizes between which a switch becomes due.
@@ -223,7 +200,7 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
       noise = Real(-1);
     }
     const Real g = switches_.g()[result.index];
-    if (noise < Real(0)) noise = noiseOf(next, result.index);
+    if (noise < Real(0)) noise = switches_.roundOff(next, result.index);
     if (step == high && due < 0) {
       beyond = further(beyond, g, slope, resolution, h);
       if (!(step + beyond < h)) return result;

@@ -53,12 +53,10 @@ class EventLocator {
   Location<Real> solveTo(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h, State<Real>& next,
                          const Root& root);
   Real resolution(const State<Real>& from, const Real& h) const;
-  Real noiseOf(const State<Real>& state, Index i);
 
   Switches<Real> switches_;
   SwitchScan<Real> scan_;
   double tolerance_;
-  State<Real> moved_;  // by last digits
 };
 
 }  // namespace irk

@@ -8,7 +8,7 @@
 namespace irk {
 template <class Real>
 Switches<Real>::Switches(const System<Real>& system)
-    : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))) {}
+    : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))), moved_g_(g_.size()) {}
 
 template <class Real>
 SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
@@ -30,12 +30,41 @@ Index Switches<Real>::due() const {
 }
 
 template <class Real>
+Real Switches<Real>::roundOff(const State<Real>& state, Index i) {
+  using std::abs;
+  using std::isfinite;
+  Real largest(0);
+  for (const bool alternating : {false, true}) {
+    moved_ = state;
+    int sign = 1;
+    for (auto* part : {&moved_.u, &moved_.v, &moved_.x, &moved_.w}) {
+      for (Real& y : *part) {
+        y += Real(sign * kLastDigits.value) * Eigen::NumTraits<Real>::epsilon() * abs(y);
+        if (alternating) sign = -sign;
+      }
+    }
+    system_.switching(pointOf(moved_), VecView<Real>(moved_g_.data(), moved_g_.size()));
+    const Real change = abs(Real(moved_g_[i] - g_[i]));
+    if (isfinite(change) && change > largest) largest = change;
+  }
+  return largest;
+}
+
+template <class Real>
+Index Switches<Real>::dueBeyondRoundOff(const State<Real>& state) {
+  for (Index i = 0; i < g_.size(); ++i) {
+    if (g_[i] > Real(0) && g_[i] > roundOff(state, i)) return i;
+  }
+  return -1;
+}
+
+template <class Real>
 SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps, const std::function<void(Index)>& done) {
   SwitchReport report;
   while (true) {
     const SwitchReport at = evaluate(state);
     if (at.outcome != Outcome::kSuccess) return at;
-    const Index i = due();
+    const Index i = report.count == 0 ? due() : dueBeyondRoundOff(state);
     if (i < 0) return report;
     report.index = i;
     if (report.count == kSwitchRounds.whole() * g_.size()) {

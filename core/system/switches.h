@@ -59,6 +59,12 @@ class Switches {
   const Vec<Real>& g() const { return g_; }
   /// The first switch that is due by the last g(), or -1.
   Index due() const;
+  /// The same at `state`, for which g() was evaluated last, of the switches that are due by more than their round-off.
+  /// Behind a jump that sets a component to a surface g = 0, g is round-off of either sign.
+  Index dueBeyondRoundOff(const State<Real>& state);
+  /// Round-off of function i at `state`, for which g() was evaluated last: the largest change of g_i when all
+  /// components of u, v, x, a, k and z change by their last digits, with equal and with alternating signs.
+  Real roundOff(const State<Real>& state, Index i);
   /// Executes due switches, changing state.d (and u, v, x if they jump), until none is due. Calls `done` after each.
   /// After a failure the state keeps the switches executed so far.
   SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone, const std::function<void(Index)>& done = {});
@@ -67,7 +73,8 @@ class Switches {
 
  private:
   const System<Real>& system_;
-  Vec<Real> g_;
+  Vec<Real> g_, moved_g_;
+  State<Real> moved_;
 };
 
 }  // namespace irk

@@ -1,7 +1,9 @@
 // Location of switches whose functions have more round-off than time has.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "tests/core/switching_run.h"
 
@@ -70,6 +72,71 @@ TEST(NoisySwitch, TakesFewAttempts) {
   ASSERT_GT(c.located_events, 20);
   // Four or five solves per switch, and the steps between; 25 per switch before.
   EXPECT_LT(c.newton_iterations, 60 * c.located_events);
+}
+
+/// A ball falls on a lift that rises with c m/s. Its jump sets u = c t, and the switching function c t - u is then the
+/// round-off of the product: with fused multiplication and addition it is not zero, and of either sign.
+struct BallOnALift {
+  double c;
+  static constexpr double kGravity = 9.81, kRestitution = 0.9;
+  Sizes sizes() const { return {.nu = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.a[0] - kGravity;
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    if constexpr (std::is_same_v<T, double>) {
+      g[0] = std::fma(c, p.t, -p.u[0]);
+    } else {
+      g[0] = c * p.t - p.u[0];
+    }
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T*) const {}
+  template <class T>
+  void jump(Index, const Point<T>& p, T* u, T* v, T*) const {
+    u[0] = c * p.t;
+    v[0] = c - kRestitution * (p.v[0] - c);
+  }
+  State<double> start() const {
+    State<double> s(sizes());
+    s.u[0] = 1;
+    return s;
+  }
+  // (u, v) at t, from impact to impact: y is the height above the lift, and falls with g.
+  std::array<double, 2> at(double t, int& impacts) const {
+    double now = 0, y = 1, w = -c;
+    for (impacts = 0;; ++impacts) {
+      const double until = (w + std::sqrt(w * w + 2 * kGravity * y)) / kGravity;
+      if (now + until > t) break;
+      now += until;
+      w = -kRestitution * (w - kGravity * until);
+      y = 0;
+    }
+    const double rest = t - now;
+    return {y + rest * (w - kGravity / 2 * rest) + c * t, w - kGravity * rest + c};
+  }
+};
+
+TEST(NoisySwitch, IsNotDueAgainByItsRoundOffBehindAJump) {
+  int noisy = 0;
+  for (const double c : {0.3, 0.25, 0.1, -0.1, 0.37, 0.7}) {
+    for (const double tol : {1e-4, 1e-8}) {
+      for (const auto& options : {adaptive(tol), embedded(tol)}) {
+        const BallOnALift lift{c};
+        const Result r = run(lift, lift.start(), 3, Discontinuity::kLocate, options, "radau_iia_5");
+        ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << c << " tol " << tol << ": " << r.solution.detail;
+        int impacts = 0;
+        const auto exact = lift.at(3, impacts);
+        EXPECT_EQ(r.solution.counters.switches, impacts) << c << " tol " << tol;
+        EXPECT_NEAR(r.solution.state.u[0], exact[0], 20 * tol) << c;
+        EXPECT_NEAR(r.solution.state.v[0], exact[1], 20 * tol) << c;
+        for (const Event& event : r.events) noisy += std::fma(c, event.t, -(c * event.t)) > 0;
+      }
+    }
+  }
+  EXPECT_GT(noisy, 10) << "the test shows nothing";
 }
 
 }  // namespace
