@@ -105,18 +105,22 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
   result.error = estimate.error * rank().strictness;
-  if (guards(Guard::kSwitchEffect)) result.error = worse(result.error, order(), result.mode_error, 1);
+  result.plain_error = estimate.error;
+  const auto raise = [&](const auto& raised) {
+    result.error = raised(result.error);
+    result.plain_error = raised(result.plain_error);
+  };
+  const auto raiseTo = [&](double other) { raise([&](double error) { return worse(error, order(), other, 1); }); };
+  if (guards(Guard::kSwitchEffect)) raiseTo(result.mode_error);
   // What the defect shows between the stages says nothing about stiff components at the start, which a second filter
   // damps.
   again_ = !(result.error <= 1);
-  if (result.outcome == Outcome::kSuccess && result.error <= 1 && guards(Guard::kDefect)) {
+  if (result.outcome == Outcome::kSuccess && result.plain_error <= 1 && guards(Guard::kDefect)) {
     const auto between = member().defect.largest(from, *past_, to);
     result.outcome = between.outcome;
-    result.error = std::max(result.error, between.error);
+    raise([&between](double error) { return std::max(error, between.error); });
   }
-  if (watches_start_ && guards(Guard::kRestart)) {
-    result.error = worse(result.error, order(), member().stepper.startDefect(from), 1);
-  }
+  if (watches_start_ && guards(Guard::kRestart)) raiseTo(member().stepper.startDefect(from));
   lower_error_ = kUnknown;
   const bool good = result.outcome == Outcome::kSuccess && result.error <= 1;
   if (good && at_ > 0 && order_control_->needsLower()) {

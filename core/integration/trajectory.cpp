@@ -123,10 +123,15 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
   return result;
 }
 
+// The strictness of variable order, up to 1e6, is meant for the sum of many smooth steps. At a jump of the rates errors
+// fall with h only: held to a millionth of the tolerance, a step over the jump would have to be shorter than time is
+// resolved. Strictness alone therefore does not reject a step that is hardly longer than the smallest one: it has the
+// error 1.
 template <class Real>
-StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h) {
+StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h, double least) {
   controller_->factorsCost(jacobian_.factorsCost());
-  const StepDecision decision = controller_->decide(result.error, h);
+  const bool takes_it = result.isTooStrict() && kShrinkAtMost * h < least;
+  const StepDecision decision = controller_->decide(takes_it ? 1 : result.error, h);
   if (!decision.accept) last_rejection_ = "the error";
   rejected_ = !decision.accept;
   return decision;

@@ -28,6 +28,10 @@ struct AttemptResult : StepResult {
   /// Estimate in the error norm, accepted up to 1; NaN without one. With variable order it is multiplied
   /// by the member's strictness (core/control/order_controller.h).
   double error = 0;
+  /// The same without that strictness, where it is known.
+  double plain_error = std::numeric_limits<double>::infinity();
+  /// Whether strictness alone rejects the step.
+  bool isTooStrict() const { return error > 1 && plain_error <= 1; }
 };
 
 }  // namespace irk
