@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 #include "core/base/constants.h"
 #include "core/integration/small_components.h"
@@ -70,12 +71,27 @@ struct Motion {
   }
 };
 
-// What errors in the times of located switches may have changed in u, v and x, all in all.
+// The time that an integration loses by rounding: the solution goes on by h in a step, and the time by the difference
+// of two rounded times. It is below round-off unless the times are far larger than the steps, as seconds since 1970
+// are.
 template <class Real>
-struct SwitchErrors {
+struct LostTime {
+  Real t;
+  double lost = 0;
+
+  void step(const StepRecord<Real>& step) {
+    if (!std::is_same_v<Real, double>) return;  // a step's size is not known to more digits, and times have many
+    lost += step.h - static_cast<double>(Real(step.t - t));
+    t = step.t;
+  }
+};
+
+// What errors in the times of located switches, and of the end, may have changed in u, v and x, all in all.
+template <class Real>
+struct TimeErrors {
   Vec<double> u, v, x;
 
-  explicit SwitchErrors(const State<Real>& s)
+  explicit TimeErrors(const State<Real>& s)
       : u(Vec<double>::Zero(s.u.size())), v(Vec<double>::Zero(s.v.size())), x(Vec<double>::Zero(s.x.size())) {}
 
   // A switch that comes earlier by the error leaves another state behind, which then goes on for that time.
@@ -84,6 +100,12 @@ struct SwitchErrors {
     u += distances<Real>(earlier.u, at.behind.u);
     v += distances<Real>(earlier.v, at.behind.v);
     x += distances<Real>(earlier.x, at.behind.x);
+  }
+  // The end of the integration is late by so much.
+  void addAtEnd(const State<Real>& end, double late) {
+    u += std::abs(late) * end.v.cwiseAbs().template cast<double>();
+    v += std::abs(late) * end.a().cwiseAbs().template cast<double>();
+    x += std::abs(late) * end.k().cwiseAbs().template cast<double>();
   }
 };
 
@@ -145,23 +167,26 @@ ErrorBar unknownBar(const State<Real>& result, const Solution<Real>& second) {
 // The bar by one integration with `second`, whose result it sets.
 template <class Real>
 ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real> watched, Solution<Real>& other) {
-  SwitchErrors<Real> switches(of.result);
+  TimeErrors<Real> times(of.result);
+  LostTime<Real> time{of.start.t};
   Motion<Real> motion{of.start};
-  watched.accepted = [&motion, look = std::move(watched.accepted)](const StepRecord<Real>& step) {
+  watched.accepted = [&motion, &time, look = std::move(watched.accepted)](const StepRecord<Real>& step) {
     motion.follow(step.state);
+    time.step(step);
     if (look) look(step);
   };
   watched.located = [&](const LocatedSwitch<Real>& at) {
-    switches.add(at);
+    times.add(at);
     if (of.monitor.located) of.monitor.located(at);
   };
   other = second.integrate(of.start, of.t_end ? *of.t_end : of.result.t, watched);
   if (other.outcome != Outcome::kSuccess) return unknownBar(of.result, other);
   motion.follow(other.state);  // behind a jump at the end
+  times.addAtEnd(other.state, time.lost);
   ErrorBar bar;
-  bar.u = distances<Real>(of.result.u, other.state.u) + switches.u;
-  bar.v = distances<Real>(of.result.v, other.state.v) + switches.v;
-  bar.x = distances<Real>(of.result.x, other.state.x) + switches.x;
+  bar.u = distances<Real>(of.result.u, other.state.u) + times.u;
+  bar.v = distances<Real>(of.result.v, other.state.v) + times.v;
+  bar.x = distances<Real>(of.result.x, other.state.x) + times.x;
   bar.z = distances<Real>(of.result.z(), other.state.z());
   if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t)));
   weigh(of.result, other.state, of.tolerances, of.scale, motion.farthest, bar);

@@ -11,7 +11,7 @@ namespace irk {
 
 /// The measured error of a result, component by component, in the scene's unknowns and their units. NaN: unknown.
 struct ErrorBar {
-  Vec<double> u, v, x, z;  ///< |result - second result|, and what located switches add (measureErrorBar)
+  Vec<double> u, v, x, z;  ///< |result - second result|, and what located switches and late times add
   /// The largest of |e_i| / (atol scale_i + rtol |y_i|) over u, v and x, with the smaller |y_i| of the two results; NaN
   /// if the bar is unknown.
   double tolerances = std::numeric_limits<double>::quiet_NaN();
@@ -49,7 +49,8 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// `remark`: a fast motion far below the tolerance could need any number of steps.
 /// Both integrations have the round-off of the scene's switching functions, which their distance does not show: each
 /// located switch adds what the error of its time changes behind it, by the other rates and the jump there (the
-/// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). Both can miss
+/// saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). So does the time that the
+/// second one loses by rounding t + h, where times are far larger than steps. Both can miss
 /// the same thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the
 /// second integration fails, the bar is unknown and `problem` says why; near round-off one with the tolerance of the
 /// result may succeed, whose own error is then in the bar as well. Throws Misuse as Integrator::integrate, and for

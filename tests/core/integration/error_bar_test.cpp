@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tests/core/error_bar_run.h"
 
@@ -241,6 +243,40 @@ TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
 }
 
 // A thousand tolerances, and 1e-9 beside it.
+/// u'' = -u, wherever it begins in time.
+struct TimelessOscillator {
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = -p.u[0] - p.a[0];
+  }
+};
+
+// Numbers of 1e9 and more, as seconds since 1970, have few digits for a step.
+TEST(ErrorBar, CoversTheTimeThatRoundingLoses) {
+  int too_small = 0, runs = 0;
+  std::vector<double> parts;  // bar over error
+  for (const double t0 : {1e9, 1.7e9, 1e11, 1e12}) {
+    for (double length = 1.3; length < 14; length += 0.17) {
+      State<double> start(TimelessOscillator{}.sizes());
+      start.t = t0;
+      start.v[0] = 1;
+      const double t_end = t0 + length;
+      const MeasuredRun m = measuredRun(TimelessOscillator{}, start, t_end, embedded(1e-8));
+      const double error =
+          std::hypot(m.first.state.u[0] - std::sin(t_end - t0), m.first.state.v[0] - std::cos(t_end - t0));
+      const double bar = std::hypot(m.bar.u[0], m.bar.v[0]);
+      ++runs;
+      too_small += error > 3 * (bar + 1e-8);
+      if (error > 1e-8) parts.push_back(bar / error);
+    }
+  }
+  ASSERT_GT(parts.size(), 100) << "the test shows nothing";
+  std::sort(parts.begin(), parts.end());
+  EXPECT_LE(parts[parts.size() / 2], 2);
+  EXPECT_EQ(too_small, 0) << "of " << runs;
+}
+
 TEST(ErrorBar, LargestOfASuccess) {
   EXPECT_NEAR(largestErrorBar({1e-3, 1e-6}), 1000, 1e-5);
   EXPECT_NEAR(largestErrorBar({1e-13, 1e-12}), 2000, 1e-9);
