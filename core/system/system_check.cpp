@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/base/number_text.h"
 #include "irk/misuse.h"
 #include "irk/multiprecision.h"
 
@@ -34,9 +35,7 @@ bool isFinite(const Real& x) {
 
 template <class Real>
 std::string text(const Real& x) {
-  std::ostringstream out;
-  out << static_cast<double>(x);
-  return out.str();
+  return numberText(static_cast<double>(x));
 }
 
 // Where the residual does not depend on v, the v of stages are NaN. Comparisons with NaN are false and leave a residual

@@ -74,10 +74,15 @@ std::string Setup<Real>::advice(Outcome outcome) const {
   const Vec<Real> beside = method.A.row(method.stages() - 1).transpose() - method.b;
   constexpr double kRoundOff = 1e-12;  // of coefficients with 15 digits
   const bool at_end = static_cast<double>(Real(beside.cwiseAbs().maxCoeff())) < kRoundOff;
-  const bool constrained = spec.formulation == Formulation::kIndex2 && system->sizes().constraints > 0;
-  if (!steps_shrink || !constrained || at_end) return left_out;
-  return (left_out.empty() ? "" : left_out + "; ") + "the steps of " + method.id +
-         " end off the velocity constraint; formulation index2_projected projects them";
+  if (!steps_shrink || at_end) return left_out;
+  const std::string before = (left_out.empty() ? "" : left_out + "; ") + "the steps of " + method.id;
+  if (spec.formulation == Formulation::kIndex2 && system->sizes().constraints > 0) {
+    return before + " end off the velocity constraint; formulation index2_projected projects them";
+  }
+  const auto& powers = system->errorPowers().z;
+  const bool has_index_2 = std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
+  if (!has_index_2) return left_out;
+  return before + " end off the equations of index 2; those of radau_iia and lobatto_iiic end on them";
 }
 
 std::string oneThreadText(const RunSpec& spec, Index unknowns) {

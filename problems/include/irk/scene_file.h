@@ -11,7 +11,7 @@
 //   struct FourBar {
 //     ...                                             // constants, sizes, equations
 //     static FourBar with(const Settings& values);    // the problem with these parameters; only if it has some
-//     void start(State<Real>& s) const;               // fills u, v, x, d where they are not 0, and guesses of z
+//     void start(State<Real>& s) const;               // fills t, u, v, x, d where they are not 0, and guesses of z
 //     State<Real> exact(const Real& t) const;         // the exact solution, if it is known
 //     SceneFrame<Real> frame() const;                 // end, names, units
 //     static SceneEntry entry();                      // id, title, parameters, ...
@@ -210,14 +210,29 @@ struct SceneFrame {
   bool exact_holds = true;                ///< false: with these parameters `exact` is not the solution
 };
 
-/// Names the components of a frame without names, as many as `start` has.
+/// Names the components of a frame without names, as many as `start` has. A frame that names some may leave whole lists
+/// out, whose components are then u1, u2, ..., x1 or z1 and so on. Throws Misuse for a list of another length.
 template <class Real>
-void numberComponents(SceneFrame<Real>& frame, const State<Real>& start) {
-  const Index nu = start.u.size(), nx = start.x.size();
-  const auto all = numbered(nu + nx + start.z().size());
-  frame.u.assign(all.begin(), all.begin() + nu);
-  frame.x.assign(all.begin() + nu, all.begin() + nu + nx);
-  frame.z.assign(all.begin() + nu + nx, all.end());
+void nameComponents(SceneFrame<Real>& frame, const State<Real>& start) {
+  const Index nu = start.u.size(), nx = start.x.size(), nz = start.z().size();
+  if (frame.u.empty() && frame.x.empty() && frame.z.empty()) {
+    const auto all = numbered(nu + nx + nz);
+    frame.u.assign(all.begin(), all.begin() + nu);
+    frame.x.assign(all.begin() + nu, all.begin() + nu + nx);
+    frame.z.assign(all.begin() + nu + nx, all.end());
+    return;
+  }
+  const auto complete = [](const std::string& list, std::vector<Component>& names, Index count) {
+    if (names.empty()) {
+      names = numbered(count, list);
+    } else if (std::ssize(names) != count) {
+      throw Misuse("the frame names " + std::to_string(names.size()) + " components of " + list + ", and sizes() has " +
+                   std::to_string(count));
+    }
+  };
+  complete("u", frame.u, nu);
+  complete("x", frame.x, nx);
+  complete("z", frame.z, nz);
 }
 
 /// The scene of a problem P with `frame`. Its start is that of `start`, completed; without `start` the exact solution
@@ -230,7 +245,7 @@ Scene<Real> framedScene(const P& problem) {
   scene.t_end = frame.t_end;
   scene.time_unit = std::move(frame.time_unit);
   scene.outputs = std::move(frame.outputs);
-  if (frame.u.empty() && frame.x.empty() && frame.z.empty()) numberComponents(frame, scene.start);
+  nameComponents(frame, scene.start);
   setComponents(scene, frame.u, frame.x, frame.z);
   constexpr bool kStarts = requires { problem.start(scene.start); };
   if constexpr (requires { problem.exact(scene.start.t); }) {

@@ -189,5 +189,22 @@ TEST(SceneFrame, AParameterThatIsNoNumberIsRefused) {
   EXPECT_EQ(number<double>({{"k", "-2.5e-3"}}, "k"), -2.5e-3);
 }
 
+// The same with other names.
+template <class Real>
+struct NamedInPart : Nameless<Real> {
+  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"charge"}}}; }
+};
+template <class Real>
+struct NamedTwice : Nameless<Real> {
+  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{"charge"}, {"flux"}}}; }
+};
+
+TEST(SceneFrame, MayNameSomeComponentsOnly) {
+  const auto scene = makeScene<double>(sceneEntryOf<NamedInPart>({.id = "in_part", .title = "", .shows = ""}), {});
+  EXPECT_EQ(scene.names, (std::vector<std::string>{"u1", "u1'", "charge", "z1"}));
+  const auto make = [] { makeScene<double>(sceneEntryOf<NamedTwice>({.id = "twice", .title = "", .shows = ""}), {}); };
+  EXPECT_TRUE(containsAll(refusal(make), {"the frame names 2 components of x, and sizes() has 1"}));
+}
+
 }  // namespace
 }  // namespace irk::test
