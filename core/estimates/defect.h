@@ -51,8 +51,8 @@ class MovingPoints {
 ///
 /// A step is looked at in one or more moving points (MovingPoints), so that nothing can hide from all steps, and runs
 /// repeat bit for bit: in its part of StepOptions::looks, rounded up. An input that lasts longer than 2 / looks of the
-/// interval cannot be missed. Where the last stage is before the step's end, the end is looked at as well. A step inside
-/// an interval that has been looked at, as one that is solved again to its switch, is looked at in one point.
+/// interval cannot be missed. Where the last stage is before the step's end, the end is looked at as well. A step
+/// inside an interval that has been looked at, as one that is solved again to its switch, is looked at in one point.
 ///
 /// Owns scratch; keeps references.
 template <class Real>

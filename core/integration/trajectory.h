@@ -11,7 +11,7 @@
 #include "core/derivatives/projection.h"
 #include "core/estimates/step_attempt.h"
 #include "core/integration/amounts.h"
-#include "core/integration/inside_attempt.h"
+#include "core/estimates/inside_attempt.h"
 #include "core/integration/singular_positions.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"

@@ -1,12 +1,12 @@
-// Motions that leave an unstable rest: the growth of their errors, and error bars that follow them.
+// Motions that leave an unstable rest, and error bars that follow them.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "core/integration/growth.h"
 #include "tests/core/error_bar_run.h"
+#include "tests/core/resting_systems.h"
 
 namespace irk::test {
 namespace {
@@ -23,23 +23,6 @@ struct AtCapacity {
   State<double> start() const {
     State<double> s(sizes());
     s.x[0] = exact(0);
-    return s;
-  }
-};
-
-/// A spiral around (1, 1) from (1 + 1e-6, 1): its radius is 1e-6 e^(growth t).
-struct Spiral {
-  double growth, frequency;
-  Sizes sizes() const { return {.nx = 2}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    const T x = p.x[0] - 1.0, y = p.x[1] - 1.0;
-    r.x[0] = growth * x - frequency * y - p.k[0];
-    r.x[1] = frequency * x + growth * y - p.k[1];
-  }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x << 1 + 1e-6, 1;
     return s;
   }
 };
@@ -67,24 +50,6 @@ TEST(UnstableRest, AnOscillationThatGrowsIsFollowed) {
   expectCovered(run.bar, 1, std::abs(run.first.state.x[1] - 1 - radius * std::sin(100 * t_end)));
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
 }
-
-/// An oscillator of frequency 1 beside x' = L sin(x - 1), which leaves 1 for 1 + pi.
-struct RestBesideMotion {
-  double L;
-  Sizes sizes() const { return {.nu = 1, .nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -p.u[0] - p.a[0];
-    using std::sin;
-    r.x[0] = L * sin(p.x[0] - 1.0) - p.k[0];
-  }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    s.x[0] = 1 + 1e-9;
-    return s;
-  }
-};
 
 TEST(UnstableRest, IsFollowedWhereOtherComponentsMove) {
   for (const double L : {10.0, 30.0, 100.0, 300.0}) {
@@ -311,54 +276,6 @@ TEST(UnstableRest, AStableOneCostsNothing) {
   EXPECT_LT(run.steps, 100);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
   EXPECT_LT(run.bar.tolerances, 1);
-}
-
-double growth(const std::shared_ptr<const System<double>>& system, const State<double>& state, double time) {
-  return Growth<double>(*system, DerivativeSource::kAutomatic).rate(state, time);
-}
-
-TEST(Growth, IsTheLargestEigenvalueThatGrowsInTime) {
-  const auto spiral = [](double rate) { return makeSystem<double>(Spiral{rate, 100}); };
-  State<double> rest(Spiral{}.sizes());
-  rest.x.setOnes();
-  const double size = std::hypot(2, 100);
-  EXPECT_NEAR(growth(spiral(2), rest, 1), size, 1e-10 * size);
-  EXPECT_EQ(growth(spiral(2), rest, 0.49), 0) << "less than a factor e";
-  EXPECT_EQ(growth(spiral(0), rest, 1e6), 0) << "an oscillation";
-  EXPECT_EQ(growth(spiral(-2), rest, 1e6), 0);
-}
-
-TEST(Growth, RestsInAModeWhateverTheOthersDo) {
-  const auto system = makeSystem<double>(RestBesideMotion{100});
-  const auto rate = [&](double deviation) {
-    State<double> s(system->sizes());
-    s.v[0] = 1;
-    s.x[0] = 1 + deviation;
-    s.w << 0, 100 * std::sin(deviation);
-    Growth<double> growth(*system, DerivativeSource::kAutomatic);
-    EXPECT_GT(growth.rate(s, 10), 0);
-    const auto motions = growth.motions(s, 10, Vec<double>::Constant(3, 1e-4), Vec<double>::Constant(3, 1e-13), 0);
-    EXPECT_NEAR(motions->faster, motions->resting, 1e-9) << "not an oscillation";
-    EXPECT_NEAR(motions->living, 100, 1e-4);
-    EXPECT_FALSE(motions->vanished);
-    return motions->resting;
-  };
-  EXPECT_NEAR(rate(1e-9), 100, 1e-4);
-  EXPECT_NEAR(rate(0.9e-4), 100, 1e-4);
-  EXPECT_EQ(rate(1.1e-4), 0) << "it is further away than the tolerance";
-}
-
-// With its multiplier a pendulum in Cartesian coordinates has the growth of one in the angle: sqrt(g / l).
-TEST(Growth, OfAConstrainedMotionIsThatAlongTheConstraint) {
-  const LongPendulum<double> problem{2};
-  State<double> upright(problem.sizes()), hanging(problem.sizes());
-  upright.u << 0, 2;
-  upright.w[2] = -9.81 / 2;
-  hanging.u << 0, -2;
-  hanging.w[2] = 9.81 / 2;
-  const auto system = makeSystem<double>(problem);
-  EXPECT_NEAR(growth(system, upright, 10), std::sqrt(9.81 / 2), 1e-8);
-  EXPECT_EQ(growth(system, hanging, 10), 0);
 }
 
 }  // namespace

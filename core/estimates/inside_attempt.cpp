@@ -1,4 +1,4 @@
-#include "core/integration/inside_attempt.h"
+#include "core/estimates/inside_attempt.h"
 
 #include <algorithm>
 
