@@ -152,14 +152,14 @@ template <class Real>
 auto Defect<Real>::largest(const State<Real>& from, const StagePolynomial<Real>& stages, const State<Real>& to)
     -> Result {
   most_.setZero();
-  const double t = static_cast<double>(stages.t), end = static_cast<double>(Real(stages.t + stages.h));
+  const Real &t = stages.t, end = t + stages.h;
   const bool follows = seen_.has(t);
   const double h = follows && seen_.has(end) ? 0 : static_cast<double>(stages.h);
   const std::int64_t looks = looksInStep(looks_, h, length_, points_.period());
   Result largest = among(next_, looks, from, stages);
   next_ += looks;
   if (largest.outcome == Outcome::kSuccess && largest.error <= 1) {
-    seen_ = {follows ? seen_.first : t, follows ? std::max(seen_.last, end) : end};
+    seen_ = {follows ? seen_.first : t, follows && seen_.last > end ? seen_.last : end};
   } else {
     forget();
   }

@@ -66,7 +66,7 @@ class Defect {
 
   /// A new integration over this length; its points begin anew.
   void begin(double length);
-  /// After a change of mode: what was looked at before says nothing about the steps that follow.
+  /// After a restart, or a step whose path was wrong: what was looked at says nothing about the steps that follow.
   void forget() { seen_ = {}; }
 
   using Result = typename EmbeddedEstimate<Real>::Result;
@@ -90,8 +90,8 @@ class Defect {
   double length_ = 0;
   std::int64_t next_ = 0;
   struct Interval {
-    double first = 0, last = -1;
-    bool has(double t) const { return first <= t && t <= last; }
+    Real first{0}, last{-1};
+    bool has(const Real& t) const { return first <= t && t <= last; }
   };
   Interval seen_;  // whose points have been looked at and have shown no error above the tolerance
   MovingPoints<Real> points_;

@@ -88,6 +88,7 @@ class Doubling : public StepAttempt<Real> {
     result.error = worse(result.error, order_, start_defect, 1);
     // ... between the stages of both, and where the halves do not show the order p of 2^p - 1.
     if (looks_) result.error = worse(result.error, order_, unresolved(between), 1);
+    if (looks_ && !(result.error <= 1)) looks_->defect.forget();  // another path than that of a shorter step
     return result;
   }
   void forget() override {

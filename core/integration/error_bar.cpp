@@ -103,6 +103,7 @@ struct TimeErrors {
   }
   // The end of the integration is late by so much.
   void addAtEnd(const State<Real>& end, double late) {
+    if (late == 0) return;
     u += std::abs(late) * end.v.cwiseAbs().template cast<double>();
     v += std::abs(late) * end.a().cwiseAbs().template cast<double>();
     x += std::abs(late) * end.k().cwiseAbs().template cast<double>();
@@ -182,13 +183,13 @@ ErrorBar barBy(Integrator<Real>& second, const Measured<Real>& of, Monitor<Real>
   other = second.integrate(of.start, of.t_end ? *of.t_end : of.result.t, watched);
   if (other.outcome != Outcome::kSuccess) return unknownBar(of.result, other);
   motion.follow(other.state);  // behind a jump at the end
-  times.addAtEnd(other.state, time.lost);
+  if (!of.t_end) times.addAtEnd(other.state, time.lost);
   ErrorBar bar;
   bar.u = distances<Real>(of.result.u, other.state.u) + times.u;
   bar.v = distances<Real>(of.result.v, other.state.v) + times.v;
   bar.x = distances<Real>(of.result.x, other.state.x) + times.x;
   bar.z = distances<Real>(of.result.z(), other.state.z());
-  if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t)));
+  if (of.t_end) bar.t = std::abs(static_cast<double>(Real(of.result.t - other.state.t))) + std::abs(time.lost);
   weigh(of.result, other.state, of.tolerances, of.scale, motion.farthest, bar);
   return bar;
 }
@@ -252,8 +253,8 @@ ErrorBar controlledBar(Integrator<Real>& second, const Measured<Real>& of, Solut
   const std::int64_t effort = kBarEffort.whole() / static_cast<std::int64_t>(of.start.w.size());
   std::int64_t left = effort;
   std::string lacking;  // what former integrations could not control
-  SmallComponents<Real> small(of.start, of.tolerances, of.scale);
   UnstableRest<Real> rest(second.system(), of.tolerances, of.scale, of.start.t, of.t_end ? *of.t_end : of.result.t);
+  SmallComponents<Real> small(of.start, of.tolerances, of.scale, rest.watches());
   Monitor<Real> watched = of.monitor;
   watched.accepted = [&](const StepRecord<Real>& step) {
     small.look(step);

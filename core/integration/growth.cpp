@@ -23,9 +23,6 @@ Growth<Real>::Growth(const System<Real>& system, DerivativeSource source)
 // Sets J_; false if it is not known.
 template <class Real>
 bool Growth<Real>::linearize(const State<Real>& state) {
-  // Measured where steps are cheapest (`heat`, tridiagonal): eigenvalues of 60 components double the time of a bar,
-  // those of 250 make it ten times as long. On beams with 26 to 80 components they add at most 12 %.
-  constexpr Index kMost = 50;
   const Sizes n = system_.sizes();
   const Index rates = n.nu + n.nx, size = n.nu + rates;
   if (size > kMost) return false;

@@ -210,7 +210,7 @@ class Integrator<Real>::Run {
       h = trajectory_.shorten(size);
       return {};
     }
-    const StepDecision decision = trajectory_.decide(result, size, least);
+    const StepDecision decision = trajectory_.decide(result, size, resolvedSize());
     // A step that was cut short does not reduce the size of the next one.
     h = std::min(last_steps_.cut() && decision.accept ? std::max(h, decision.h) : decision.h, h_max_);
     if (!decision.accept) {
@@ -228,8 +228,6 @@ class Integrator<Real>::Run {
     if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
     stop_rule_.stepped(state());
     h = std::min(trajectory_.nextSize(result, size, h), h_max_);
-    // Behind a step of the smallest size that the tolerance has accepted, no smaller one is tried.
-    if (h > 0) h = std::min(std::max(h, smallestSize()), h_max_);
     reach(t_end);
     return {};
   }

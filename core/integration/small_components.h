@@ -16,13 +16,17 @@ namespace irk {
 // Watches an integration for components of (u, v, x) that are below their absolute tolerance for a whole step: at both
 // ends of it, and by their rate in between, so that a component that passes through zero is none of them. One whose
 // estimated error is small beside its own size, by the relative tolerance of the integration that measures, is none of
-// them either: it is as accurate as control by its size would make it. Nor is the velocity of a position that is above
-// its tolerance: such a motion rests away from zero, where a velocity below round-off has no digits to control.
+// them either: it is as accurate as control by its size would make it. Nor, where rests are watched (UnstableRest), is
+// the velocity of a position that is above its tolerance: such a motion rests away from zero, and its velocity falls to
+// the round-off of the position, where control by its size takes short steps for nothing.
 template <class Real>
 class SmallComponents {
  public:
-  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale)
-      : relative_(kBarStricter * std::max(tolerances.rtol, tolerances.atol)), scale_(scale) {
+  SmallComponents(const State<Real>& start, const Tolerances& tolerances, const Vec<double>& scale,
+                  bool rests_are_watched)
+      : rests_are_watched_(rests_are_watched),
+        relative_(kBarStricter * std::max(tolerances.rtol, tolerances.atol)),
+        scale_(scale) {
     const bool ones = scale.size() == 0 || tolerances.norm == NormKind::kAbsolute;
     if (ones) scale_ = Vec<double>::Ones(2 * start.u.size() + start.x.size() + start.z().size());
     of_.resize(static_cast<std::size_t>(scale_.size() - start.z().size()));
@@ -80,7 +84,7 @@ class SmallComponents {
   };
   bool isOfLargePosition(const StepRecord<Real>& step, Index i) const {
     const Index nu = step.state.u.size();
-    if (i < nu || i >= 2 * nu) return false;
+    if (!rests_are_watched_ || i < nu || i >= 2 * nu) return false;
     const double position = std::abs(static_cast<double>(step.state.u[i - nu]));
     return !(position < of_[static_cast<std::size_t>(i - nu)].tolerance);
   }
@@ -107,6 +111,7 @@ class SmallComponents {
   }
 
   bool found_ = false;
+  bool rests_are_watched_;
   double relative_;
   Vec<double> scale_;
   std::vector<Component> of_;

@@ -65,6 +65,7 @@ Outcome Trajectory<Real>::begin(const State<Real>& start, double length, const M
   last_h_ = Real(0);
   earlier_.reset();
   attempt_->begin(length);
+  switches_.begin();
   modes_->begin(static_cast<double>(start.t), length);
   attempt_->keepPieces(monitor.inside);
   if (monitor.inside && !inside_) inside_.emplace(system_);
@@ -125,13 +126,14 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
 
 // The strictness of variable order, up to 1e6, is meant for the sum of many smooth steps. At a jump of the rates errors
 // fall with h only: held to a millionth of the tolerance, a step over the jump would have to be shorter than time is
-// resolved. Strictness alone therefore does not reject a step that is hardly longer than the smallest one: it has the
-// error 1.
+// resolved. Strictness alone therefore rejects no step that is hardly longer than that, nor asks for one of less than
+// twice that size (which grows with t).
 template <class Real>
-StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h, double least) {
+StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h, double resolved) {
   controller_->factorsCost(jacobian_.factorsCost());
-  const bool takes_it = result.isTooStrict() && kShrinkAtMost * h < least;
-  const StepDecision decision = controller_->decide(takes_it ? 1 : result.error, h);
+  const bool takes_it = result.isTooStrict() && kShrinkAtMost * h < resolved;
+  StepDecision decision = controller_->decide(takes_it ? 1 : result.error, h);
+  if (result.isTooStrict()) decision.h = std::max(decision.h, 2 * resolved);
   if (!decision.accept) last_rejection_ = "the error";
   rejected_ = !decision.accept;
   return decision;
@@ -281,7 +283,7 @@ Outcome Trajectory<Real>::restartAtSwitch() {
     if (report.determined && !(projection_ && stops)) attempt_->restart();
     if (switches_.none()) return Outcome::kSuccess;
     const SwitchReport at = switches_.evaluate(state_);
-    blamed_ = at.outcome == Outcome::kSuccess ? switches_.dueBeyondRoundOff(state_) : at.index;
+    blamed_ = at.outcome == Outcome::kSuccess ? switches_.dueAt(state_) : at.index;
     if (at.outcome != Outcome::kSuccess || blamed_ < 0) return at.outcome;
   }
   ++counters_.chattering;

@@ -9,9 +9,9 @@
 #include "core/control/controller.h"
 #include "core/derivatives/consistent_start.h"
 #include "core/derivatives/projection.h"
+#include "core/estimates/inside_attempt.h"
 #include "core/estimates/step_attempt.h"
 #include "core/integration/amounts.h"
-#include "core/estimates/inside_attempt.h"
 #include "core/integration/singular_positions.h"
 #include "core/steps/modes.h"
 #include "core/system/switches.h"
@@ -38,9 +38,9 @@ class Trajectory {
   /// After a failure that a shorter step may avoid: forgets what start values were predicted from, and from the second
   /// failure in a row on solves for the algebraic unknowns of state(); returns the size to try next.
   double shorten(double h);
-  /// The controller's decision on the tried step of size h; `least`: the size of the smallest step. Must not be called
-  /// with fixed steps.
-  StepDecision decide(const AttemptResult& result, double h, double least);
+  /// The controller's decision on the tried step of size h; `resolved`: the size of the shortest step that time
+  /// resolves. Must not be called with fixed steps.
+  StepDecision decide(const AttemptResult& result, double h, double resolved);
   /// Takes over the tried step of size h, which ends at `end`; a first switch in it shortens it. An outcome other than
   /// kSuccess: the switch cannot be passed. If the outcome isRecoverable, the shortened step could not be solved within
   /// the tolerance, and nothing was taken over.

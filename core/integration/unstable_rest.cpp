@@ -43,7 +43,9 @@ void LookTimes::step(double h, double speed) {
   since_look_ += h;
 }
 
-bool LookTimes::staysAtRest(double h) const { return speed_ > 0 && std::max(h, length_ / kParts) * speed_ < 1; }
+bool LookTimes::moves(double h) const { return !(std::max(h, length_ / kParts) * speed_ < 1); }
+
+bool LookTimes::staysAtRest(double h) const { return speed_ > 0 && !moves(h); }
 
 // Once in N steps, the eigenvalues of N components take about a tenth of the time of a bar; those of a few take as long
 // as a step and are computed in every tenth one (judged by 2700 runs of systems with unstable rests: no outcome
@@ -67,22 +69,24 @@ UnstableRest<Real>::UnstableRest(const System<Real>& system, const Tolerances& t
                                  const Real& t_start, const Real& t_end)
     : judge_(system, tolerances, scale),
       times_(static_cast<double>(Real(t_end - t_start))),
-      same_unknowns_(system.sizes() == system.sceneSizes()),
+      watches_(system.sizes() == system.sceneSizes() &&
+               2 * system.sizes().nu + system.sizes().nx <= Growth<Real>::kMost),
       length_(static_cast<double>(Real(t_end - t_start))),
       t_end_(t_end) {}
 
 template <class Real>
 void UnstableRest<Real>::begin() {
   times_.begin();
-  found_ = was_stable_ = vanished_ = false;
+  found_ = was_stable_ = vanished_ = left_ = false;
   grown_ = 0;
 }
 
 template <class Real>
 void UnstableRest<Real>::look(const StepRecord<Real>& step) {
-  if (!same_unknowns_ || step.h < 0 || step.state.u.size() + step.state.x.size() == 0) return;
+  if (!watches_ || step.h < 0 || step.state.u.size() + step.state.x.size() == 0) return;
   times_.step(step.h, judge_.speed(step.state));
   if (!times_.rests() && grown_ == 0) vanished_ = false;  // something else moves it
+  if (vanished_ && grown_ > 0 && times_.moves(step.h)) left_ = true;
   if (!times_.due(step.h, judge_.components())) return;
   const double left = static_cast<double>(Real(t_end_ - step.t));
   const int parts = times_.parts();
@@ -115,7 +119,8 @@ void UnstableRest<Real>::judge(const State<Real>& state, double h, double left, 
     const auto motions = judge_.motions(state, left, 0);
     growth = motions ? motions->resting : 0;
   }
-  if (growth > 0 && too_fast && !follows()) {
+  const bool follows_too_little = follows_ == Follows::kGrowth && was_stable_ && !leaves_decays_;
+  if (growth > 0 && (follows() ? follows_too_little : too_fast)) {
     found_ = true;
     follows_ = was_stable_ ? Follows::kGrowthAndDecays : Follows::kGrowth;
     t_ = static_cast<double>(state.t);
@@ -150,6 +155,7 @@ template <class Real>
 bool UnstableRest<Real>::leaveDecays() {
   if (follows_ != Follows::kGrowthAndDecays) return false;
   follows_ = Follows::kGrowth;
+  leaves_decays_ = true;
   return true;
 }
 

@@ -47,6 +47,8 @@ class LookTimes {
   void step(double h, double speed);
   /// Whether nothing moved by a tolerance in the last step.
   bool rests() const { return rests_; }
+  /// Whether something moves by a tolerance in a twentieth of the interval, or in the last step, of size h.
+  bool moves(double h) const;
   /// The time for which nothing has.
   double restsFor() const { return rests_for_; }
   /// Whether something moves, but not by a tolerance in a twentieth of the interval. Short steps seem to rest, too.
@@ -88,6 +90,8 @@ class UnstableRest {
   UnstableRest(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale, const Real& t_start,
                const Real& t_end);
 
+  /// Whether it can look at the motion: in the scene's unknowns, and with at most Growth::kMost components.
+  bool watches() const { return watches_; }
   /// An integration begins. What was found before is followed.
   void begin();
   /// After each step.
@@ -100,7 +104,7 @@ class UnstableRest {
   /// When the rest that was found is unstable.
   double t() const { return t_; }
   /// Whether the deviation has fallen below round-off in a decay, has grown, and has left the rest.
-  bool vanished() const { return vanished_ && grown_ > 0 && !times_.rests(); }
+  bool vanished() const { return left_; }
   /// From the next integration on decays are not followed; false if they were not.
   bool leaveDecays();
 
@@ -113,15 +117,17 @@ class UnstableRest {
 
   StateJudge<Real> judge_;
   LookTimes times_;
-  bool same_unknowns_;
+  bool watches_;
   double length_;
   Real t_end_;
   Follows follows_ = Follows::kNothing;
+  bool leaves_decays_ = false;  // must not follow decays
   double limit_ = std::numeric_limits<double>::infinity(), t_ = 0;
   // Of this integration:
   bool found_ = false;
   bool was_stable_ = false;  // it has come to a rest in which nothing grew
   bool vanished_ = false;    // nothing was left of the motion when it began to grow
+  bool left_ = false;        // it has left the rest after that
   double grown_ = 0;         // the exponent by which it has grown since
   State<Real> within_;
 };

@@ -40,7 +40,7 @@ class LocatedAfterStep final : public ModesAfterStep<Real> {
       step.attempt = at.attempt;
       step.h = at.h;
       // Its error exceeds the tolerance (NaN: fixed steps). kNewtonFailed is recoverable: a shorter step is tried.
-      if (at.attempt.error > 1 && !at.attempt.isTooStrict()) {
+      if (at.attempt.error > 1) {
         step.outcome = Outcome::kNewtonFailed;
         step.index = -1;
       }

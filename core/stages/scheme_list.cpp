@@ -20,7 +20,7 @@ std::shared_ptr<const CheckedMembers<Real>> checkedMembers(const Methods<Real>& 
     return checked;
   };
   if constexpr (std::is_same_v<Real, double>) {
-    if (methods.shared->size() > 1) {
+    if (methods.shared->size() > 1 && methods.shared->back().stages() <= kMostKeptStages) {
       static Kept<CheckedMembers<double>> all;  // an address that it keeps is not used again
       const auto address = reinterpret_cast<std::uintptr_t>(methods.shared.get());
       return all.of(std::string(reinterpret_cast<const char*>(&address), sizeof address), check);

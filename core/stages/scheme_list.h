@@ -14,7 +14,8 @@ struct CheckedMembers {
   std::shared_ptr<const std::vector<Tableau<Real>>> tableaus;
   std::vector<std::shared_ptr<const Structure<Real>>> structures;  ///< none for one method, whose scheme has it
 };
-/// Throws Misuse as requireTableau. In double the members of a family are checked once in a process.
+/// Throws Misuse as requireTableau. In double the members of a family of up to kMostKeptStages stages are checked once
+/// in a process, as long as its tableaus are the same object.
 template <class Real>
 std::shared_ptr<const CheckedMembers<Real>> checkedMembers(const Methods<Real>& methods);
 

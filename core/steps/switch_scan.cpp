@@ -93,7 +93,16 @@ bool SwitchScan<Real>::sample(Index j, const State<Real>& from, const State<Real
   }
   report_ = switches_.evaluate(is_start ? from : is_end ? end : inside_);
   g_.col(j) = switches_.g();
+  if (is_start && report_.outcome == Outcome::kSuccess) leaveRoundOff(from);
   return report_.outcome == Outcome::kSuccess;
+}
+
+// A step that begins on a surface g_i = 0, as behind a jump to it, has g_i at its round-off, of either sign.
+template <class Real>
+void SwitchScan<Real>::leaveRoundOff(const State<Real>& start) {
+  for (Index i = 0; i < g_.rows(); ++i) {
+    if (g_(i, 0) > Real(0) && g_(i, 0) <= switches_.roundOff(start, i)) g_(i, 0) = Real(0);
+  }
 }
 
 // Adds the switches that are due at sample j, or between samples up to it.

@@ -62,6 +62,7 @@ class SwitchScan {
   Real part(Index j) const { return Real(j) / Real(kParts * stretches_); }
   bool scanStretch(const State<Real>& from, const State<Real>& end, Index last);
   bool sample(Index j, const State<Real>& from, const State<Real>& end);
+  void leaveRoundOff(const State<Real>& start);
   void look(Index j, Index last);
   void lookBetween(Index i, Index j, Index last);
   void lookForCorner(Index i, Index end, Index inwards);

@@ -8,7 +8,11 @@
 namespace irk {
 template <class Real>
 Switches<Real>::Switches(const System<Real>& system)
-    : system_(system), g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))), moved_g_(g_.size()) {}
+    : system_(system),
+      g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))),
+      moved_g_(g_.size()),
+      moved_(none() ? Sizes{} : system.sizes()),
+      executed_(static_cast<std::size_t>(g_.size())) {}
 
 template <class Real>
 SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
@@ -51,9 +55,11 @@ Real Switches<Real>::roundOff(const State<Real>& state, Index i) {
 }
 
 template <class Real>
-Index Switches<Real>::dueBeyondRoundOff(const State<Real>& state) {
+Index Switches<Real>::dueAt(const State<Real>& state) {
   for (Index i = 0; i < g_.size(); ++i) {
-    if (g_[i] > Real(0) && g_[i] > roundOff(state, i)) return i;
+    if (!(g_[i] > Real(0))) continue;
+    const bool again = executed_at_ == state.t && executed_[static_cast<std::size_t>(i)];
+    if (!again || g_[i] > roundOff(state, i)) return i;
   }
   return -1;
 }
@@ -64,13 +70,16 @@ SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps, const std::
   while (true) {
     const SwitchReport at = evaluate(state);
     if (at.outcome != Outcome::kSuccess) return at;
-    const Index i = report.count == 0 ? due() : dueBeyondRoundOff(state);
+    const Index i = dueAt(state);
     if (i < 0) return report;
     report.index = i;
     if (report.count == kSwitchRounds.whole() * g_.size()) {
       report.outcome = Outcome::kChattering;
       return report;
     }
+    if (executed_at_ != state.t) executed_.assign(executed_.size(), false);
+    executed_at_ = state.t;
+    executed_[static_cast<std::size_t>(i)] = true;
     system_.onSwitch(i, state);
     if (jumps == Jumps::kDone) system_.jump(i, state);
     ++report.count;

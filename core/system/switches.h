@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/constants.h"
 #include "irk/outcome.h"
@@ -53,15 +54,17 @@ class Switches {
   explicit Switches(const System<Real>& system);
 
   bool none() const { return g_.size() == 0; }
+  /// A new integration begins.
+  void begin() { executed_.assign(executed_.size(), false); }
   /// Evaluates g() at a point. kNotFinite names the first switching function that is not finite.
   SwitchReport evaluate(const Point<Real>& p);
   SwitchReport evaluate(const State<Real>& state) { return evaluate(pointOf(state)); }
   const Vec<Real>& g() const { return g_; }
   /// The first switch that is due by the last g(), or -1.
   Index due() const;
-  /// The same at `state`, for which g() was evaluated last, of the switches that are due by more than their round-off.
-  /// Behind a jump that sets a component to a surface g = 0, g is round-off of either sign.
-  Index dueBeyondRoundOff(const State<Real>& state);
+  /// The same at `state`, for which g() was evaluated last. Behind a jump that sets a component to a surface g_i = 0,
+  /// g_i is round-off of either sign: one that was executed at this time is due again by more than its round-off only.
+  Index dueAt(const State<Real>& state);
   /// Round-off of function i at `state`, for which g() was evaluated last: the largest change of g_i when all
   /// components of u, v, x, a, k and z change by their last digits, with equal and with alternating signs.
   Real roundOff(const State<Real>& state, Index i);
@@ -75,6 +78,8 @@ class Switches {
   const System<Real>& system_;
   Vec<Real> g_, moved_g_;
   State<Real> moved_;
+  Real executed_at_{};          // the time of executed_
+  std::vector<bool> executed_;  // which switches were, at that time
 };
 
 }  // namespace irk

@@ -80,7 +80,8 @@ std::string Setup<Real>::advice(Outcome outcome) const {
     return before + " end off the velocity constraint; formulation index2_projected projects them";
   }
   const auto& powers = system->errorPowers().z;
-  const bool has_index_2 = std::any_of(powers.begin(), powers.end(), [](int power) { return power > 0; });
+  const auto others = powers.begin() + static_cast<std::ptrdiff_t>(system->sizes().constraints);
+  const bool has_index_2 = std::any_of(others, powers.end(), [](int power) { return power > 0; });
   if (!has_index_2) return left_out;
   return before + " end off the equations of index 2; those of radau_iia and lobatto_iiic end on them";
 }

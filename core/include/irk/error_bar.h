@@ -45,16 +45,17 @@ IntegratorOptions independentOptions(const IntegratorOptions& first);
 /// digit there, and may matter later: an epidemic of one case, a pendulum that stands upright, a delayed loss of
 /// stability. Two integrations may agree on a wrong result then. So the second one begins anew with each component that
 /// it finds small and, by its estimate, not accurate beside its size, and controls it relative to its size in either
-/// norm; not the velocity of a position above its tolerance, which rests there. If that fails or takes more steps than
-/// kBarEffort over the unknowns, it is done as usual, with a `remark`: a fast motion far below the tolerance could need
-/// any number of steps. Both integrations have the round-off of the scene's switching functions, which their distance
-/// does not show: each located switch adds what the error of its time changes behind it, by the other rates and the
-/// jump there (the saltation matrix, Leine and Nijmeijer 2004, chapter 7, times that error; LocatedSwitch). So does the
-/// time that the second one loses by rounding t + h, where times are far larger than steps. Both can miss the same
-/// thing, as a pulse of the input that lasts less than 2 / looks of the interval and is not declared. If the second
-/// integration fails, the bar is unknown and `problem` says why; near round-off one with the tolerance of the result
-/// may succeed, whose own error is then in the bar as well. Throws Misuse as Integrator::integrate, and for a result of
-/// other sizes than the start, a scale or tolerances out of range.
+/// norm; not, where rests are watched (scene's unknowns, up to 50 components), the velocity of a position above its
+/// tolerance. If that fails or takes more steps than kBarEffort over the unknowns, it is done as usual, with a
+/// `remark`: a fast motion far below the tolerance could need any number of steps. Both integrations have the round-off
+/// of the scene's switching functions, which their distance does not show: each located switch adds what the error of
+/// its time changes behind it, by the other rates and the jump there (the saltation matrix, Leine and Nijmeijer 2004,
+/// chapter 7, times that error; LocatedSwitch). So does the time that the second one loses by rounding t + h, where
+/// times are far larger than steps. Both can miss the same thing, as a pulse of the input that lasts less than 2 /
+/// looks of the interval and is not declared. If the second integration fails, the bar is unknown and `problem` says
+/// why; near round-off one with the tolerance of the result may succeed, whose own error is then in the bar as well.
+/// Throws Misuse as Integrator::integrate, and for a result of other sizes than the start, a scale or tolerances out of
+/// range.
 /// A run with the option stop_at has ended at a switch: `second` has the same option, ends at its own time of the
 /// switch, and may go up to t_end, which is then given.
 template <class Real>

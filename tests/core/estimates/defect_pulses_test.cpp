@@ -74,6 +74,7 @@ TEST(Defect, LooksAgainInANewMode) {
         const auto options = doubles ? adaptive(1e-4) : embedded(1e-4);
         const auto s = integrate<double>(problem, start, 2, makeTableau<double>(method), options);
         ++runs;
+        ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
         wrong += s.outcome == Outcome::kSuccess && std::abs(s.state.x[0] - problem.pulse.at(2)) > 100e-4;
       }
     }

@@ -242,7 +242,6 @@ TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
   EXPECT_NEAR(m.bar.x[1], distance + 40 * 2 * 2.22e-16 * control.level / control.width, 0.3 * m.bar.x[1]);
 }
 
-// A thousand tolerances, and 1e-9 beside it.
 /// u'' = -u, wherever it begins in time.
 struct TimelessOscillator {
   Sizes sizes() const { return {.nu = 1}; }
@@ -277,6 +276,7 @@ TEST(ErrorBar, CoversTheTimeThatRoundingLoses) {
   EXPECT_EQ(too_small, 0) << "of " << runs;
 }
 
+// A thousand tolerances, and 1e-9 beside it.
 TEST(ErrorBar, LargestOfASuccess) {
   EXPECT_NEAR(largestErrorBar({1e-3, 1e-6}), 1000, 1e-5);
   EXPECT_NEAR(largestErrorBar({1e-13, 1e-12}), 2000, 1e-9);
