@@ -26,7 +26,7 @@ std::shared_ptr<const Pattern> makeDense(Index n) {
 
 std::shared_ptr<const Pattern> Pattern::dense(Index n) {
   static const auto small = [] {
-    std::array<std::shared_ptr<const Pattern>, 17> all;
+    std::array<std::shared_ptr<const Pattern>, 17> all;  // of 0 to 16 unknowns
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = makeDense(static_cast<Index>(i));
     return all;
   }();

@@ -43,7 +43,7 @@ void LookTimes::step(double h, double speed) {
   since_look_ += h;
 }
 
-bool LookTimes::moves(double h) const { return !(std::max(h, length_ / kParts) * speed_ < 1); }
+bool LookTimes::moves(double h) const { return !(std::max(h, part()) * speed_ < 1); }
 
 bool LookTimes::staysAtRest(double h) const { return speed_ > 0 && !moves(h); }
 
@@ -71,7 +71,6 @@ UnstableRest<Real>::UnstableRest(const System<Real>& system, const Tolerances& t
       times_(static_cast<double>(Real(t_end - t_start))),
       watches_(system.sizes() == system.sceneSizes() &&
                2 * system.sizes().nu + system.sizes().nx <= Growth<Real>::kMost),
-      length_(static_cast<double>(Real(t_end - t_start))),
       t_end_(t_end) {}
 
 template <class Real>
@@ -146,7 +145,7 @@ void UnstableRest<Real>::limitSteps(double growth, double living) {
   double fastest = 2 * growth;
   if (follows_ == Follows::kGrowthAndDecays) {
     fastest = 8 * std::max(growth, living);
-    if (times_.rests()) fastest = std::max(fastest, LookTimes::kParts / length_);
+    if (times_.rests()) fastest = std::max(fastest, 1 / times_.part());
   }
   limit_ = fastest > 0 ? 1 / fastest : std::numeric_limits<double>::infinity();
 }

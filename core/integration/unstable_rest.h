@@ -47,10 +47,10 @@ class LookTimes {
   void step(double h, double speed);
   /// Whether nothing moved by a tolerance in the last step.
   bool rests() const { return rests_; }
+  /// The time for which nothing has moved by a tolerance in a step.
+  double restsFor() const { return rests_for_; }
   /// Whether something moves by a tolerance in a twentieth of the interval, or in the last step, of size h.
   bool moves(double h) const;
-  /// The time for which nothing has.
-  double restsFor() const { return rests_for_; }
   /// Whether something moves, but not by a tolerance in a twentieth of the interval. Short steps seem to rest, too.
   bool staysAtRest(double h) const;
   /// Whether the end of the last step, of size h, is to be looked at.
@@ -66,10 +66,12 @@ class LookTimes {
   /// The look at the last step is over.
   void lookedAtAll() { since_look_ = 0; }
 
-  /// The parts of the interval, none of which is passed over while a motion rests.
-  static constexpr int kParts = 20;
+  /// A twentieth of the interval: so long a time is not passed over while a motion rests.
+  double part() const { return length_ / kParts; }
 
  private:
+  static constexpr int kParts = 20;
+
   double length_;
   bool rests_ = false, comes_to_rest_ = false;
   double rests_for_ = 0, since_look_ = 0;
@@ -118,7 +120,6 @@ class UnstableRest {
   StateJudge<Real> judge_;
   LookTimes times_;
   bool watches_;
-  double length_;
   Real t_end_;
   Follows follows_ = Follows::kNothing;
   bool leaves_decays_ = false;  // must not follow decays
