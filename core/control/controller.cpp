@@ -10,6 +10,26 @@ namespace irk {
 
 namespace {
 
+/// A size at which Newton's method failed. The error estimate does not show such failures and would ask for that size
+/// at once: for kBarredSteps steps that would grow, sizes stay below it.
+class BarredSize {
+ public:
+  void failed(double h) {
+    failed_ = h;
+    steps_ = kBarredSteps.whole();
+  }
+  void forget() { steps_ = 0; }
+  /// The size that may follow h where `wanted` is wanted.
+  double limit(double wanted, double h) {
+    const bool barred = steps_ > 0 && --steps_ > 0;
+    return barred ? std::min(wanted, std::max(h, kSafety * failed_)) : wanted;
+  }
+
+ private:
+  double failed_ = 0;
+  int steps_ = 0;
+};
+
 /// Paper, section 6, with the error in units of the tolerance:
 ///   f = gamma (1 / (s_min eps))^(1/(p+1))                                        (6.1)
 ///   gamma = (eps_i / eps_{i-1}) (h_{i-1} / h_i)^p, after every change of step     (6.3)
@@ -41,23 +61,20 @@ class PaperController : public StepController {
     const double f = gamma_ * std::pow(1 / (o_.s_min * eps), exponent_);
     if (error > 1) return {false, h * std::min(f, 1 / o_.change_at_least)};
     if (f >= o_.change_at_least && eps < 1 / s_max_) {
-      const double grown = h * std::min(f, o_.growth_at_most);
-      return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
+      return {true, barred_.limit(h * std::min(f, o_.growth_at_most), h)};
     }
     if (f <= 1 / o_.change_at_least) return {true, h * f};
     return {true, h};
   }
-  // The paper does not say what follows a Newton failure. Sizes from the failed one on are barred for kBarredSteps
-  // steps, because the error estimate does not show such failures and would ask for the failed size at once.
+  // The paper does not say what follows a Newton failure.
   double afterFailure(double h) override {
-    failed_h_ = h;
-    barred_ = kBarredSteps.whole();
+    barred_.failed(h);
     return h / o_.change_at_least;
   }
   void forget() override {
     gamma_ = 1;
     last_h_ = 0;
-    barred_ = 0;
+    barred_.forget();
   }
   void changeOrder(int order, double error, double h) override {
     p_ = order;
@@ -77,8 +94,7 @@ class PaperController : public StepController {
   double s_max_;
   double gamma_ = 1;
   double last_error_ = 0, last_h_ = 0;
-  double failed_h_ = 0;
-  int barred_ = 0;
+  BarredSize barred_;
 };
 
 /// The later HOTINT source (paper/README erratum 5): s_min = 2, s_max = 4, exponent 1/p, no gamma.
@@ -130,19 +146,18 @@ class PredictiveController final : public StepController {
     factor = std::clamp(factor, kShrinkAtMost.value, rejected_ ? 1.0 : kGrowAtMost.value);
     rejected_ = false;
     const double grown = factor < 1 || factor > keep_up_to_ ? h * factor : h;
-    return {true, --barred_ > 0 && grown >= failed_h_ ? h : grown};
+    return {true, barred_.limit(grown, h)};
   }
   double afterFailure(double h) override {
     rejected_ = true;
-    failed_h_ = h;
-    barred_ = kBarredSteps.whole();
+    barred_.failed(h);
     const bool far_off = last_h_ == 0 && first_failures_++ > 0;
     return far_off ? std::max(h * kShrinkAtMost, std::min(h / 2, h_min_)) : h / 2;
   }
   void forget() override {
     last_h_ = 0;
     first_failures_ = 0;
-    barred_ = 0;
+    barred_.forget();
     rejected_ = false;
   }
   // If steps could grow by the ratio 1 + r each and the size is kept up to a growth of k, the cost per unit of time is
@@ -163,9 +178,8 @@ class PredictiveController final : public StepController {
   int degree_;                         // p + 1, of the roots
   double least_root_;                  // of kErrorFloor
   double last_root_ = 0, last_h_ = 0;  // of the last step: the root of its error, size
-  double failed_h_ = 0;
+  BarredSize barred_;
   int first_failures_ = 0;
-  int barred_ = 0;
   bool rejected_ = false;
 };
 
