@@ -11,7 +11,8 @@ namespace irk {
 namespace {
 
 /// A size at which Newton's method failed. The error estimate does not show such failures and would ask for that size
-/// at once: for kBarredSteps steps that would grow, sizes stay below it.
+/// at once. The kBarredSteps-th call of `limit` is the first one that allows it again; until then no size grows beyond
+/// nine tenths of it (kSafety).
 class BarredSize {
  public:
   void failed(double h) {
@@ -19,7 +20,7 @@ class BarredSize {
     steps_ = kBarredSteps.whole();
   }
   void forget() { steps_ = 0; }
-  /// The size that may follow h where `wanted` is wanted.
+  /// The size that follows an accepted step of size h whose error estimate asks for `wanted`.
   double limit(double wanted, double h) {
     const bool barred = steps_ > 0 && --steps_ > 0;
     return barred ? std::min(wanted, std::max(h, kSafety * failed_)) : wanted;

@@ -17,7 +17,10 @@ template <class Real>
 Solution<Real> Trajectory<Real>::solution(Outcome outcome, std::string detail) const {
   Counters counters = counters_;
   counters.mass_factorizations += massFactorizations(uncounted(system_));
-  return {outcome, std::move(detail), system_.toScene(state_), counters};
+  State<Real> scene = system_.toScene(state_);
+  // Their rows z_i = 0 are solved with all others, which leaves round-off (up to 5e-32).
+  for (const Index i : constrainedIn(system_).leftOut()) scene.w.tail(scene.z().size())[i] = Real(0);
+  return {outcome, std::move(detail), std::move(scene), counters};
 }
 
 template <class Real>

@@ -58,8 +58,8 @@ TEST(Paper, WithoutGammaItDoesNotFollowTheError) {
   EXPECT_NEAR(controller->decide(1e-3, 0.05).h, 0.05 * std::pow(250, 0.25), 1e-12);
 }
 
-// How many steps follow a failure of size 0.1 before one of that size is asked for again. `keeps_first`: the first one
-// after a failure does not grow.
+// How many accepted steps follow a failure of size 0.1 before one asks for that size again. `keeps_first`: the first
+// one keeps its size.
 int stepsBelowTheFailedSize(StepController& controller, bool keeps_first) {
   EXPECT_NEAR(controller.afterFailure(0.1), 0.05, 1e-15);
   double h = 0.05;
@@ -75,10 +75,10 @@ TEST(Paper, DoesNotReturnAtOnceToAStepForWhichNewtonFailed) {
   EXPECT_EQ(stepsBelowTheFailedSize(*paperRule(3), false), 9);
 }
 
-TEST(Paper, ASizeAboveTheFailedOneIsKept) {
+TEST(Paper, KeepsASizeBetweenNineTenthsOfTheFailedOneAndIt) {
   const auto controller = paperRule(3);
   controller->afterFailure(0.1);
-  EXPECT_EQ(controller->decide(1e-9, 0.095).h, 0.095) << "as after a switch that cut the failed step short";
+  EXPECT_EQ(controller->decide(1e-9, 0.095).h, 0.095) << "the size neither grows nor shrinks";
 }
 
 TEST(Paper, UsesItsOptions) {
