@@ -32,7 +32,7 @@ Real epsilon() {
 
 template <class Real>
 EventLocator<Real>::EventLocator(const System<Real>& system, double tolerance)
-    : switches_(system), scan_(system), tolerance_(tolerance) {}
+    : functions_(system), scan_(system), tolerance_(tolerance) {}
 
 template <class Real>
 Location<Real> EventLocator<Real>::locate(StepAttempt<Real>& attempt, const State<Real>& from, const Real& h,
@@ -168,9 +168,9 @@ void EventLocator<Real>::solveStep(StepAttempt<Real>& attempt, const State<Real>
   result.attempt = attempt.attempt(from, h, next);
   result.outcome = result.attempt.outcome;
   if (result.outcome != Outcome::kSuccess) return;
-  result.outcome = switches_.evaluate(next).outcome;
+  result.outcome = functions_.evaluate(next).outcome;
   result.h = h;
-  result.found = switches_.due() >= 0;
+  result.found = functions_.due() >= 0;
 }
 
 template <class Real>
@@ -192,15 +192,15 @@ Location<Real> EventLocator<Real>::solveTo(StepAttempt<Real>& attempt, const Sta
     if (settled) step = high;
     solveStep(attempt, from, step, next, result);
     if (result.outcome != Outcome::kSuccess) return result;
-    const Index due = switches_.due();
+    const Index due = functions_.due();
     const bool other = due >= 0 && due != result.index;
     if (other) {  // values, slopes and round-off of another function do not apply
       result.index = due;
       slope = Real(0);
       noise = Real(-1);
     }
-    const Real g = switches_.g()[result.index];
-    if (noise < Real(0)) noise = switches_.roundOff(next, result.index);
+    const Real g = functions_.g()[result.index];
+    if (noise < Real(0)) noise = functions_.roundOff(next, result.index);
     if (step == high && due < 0) {
       beyond = further(beyond, g, slope, resolution, h);
       if (!(step + beyond < h)) return result;

@@ -54,7 +54,7 @@ class EventLocator {
                          const Root& root);
   Real resolution(const State<Real>& from, const Real& h) const;
 
-  Switches<Real> switches_;
+  SwitchingFunctions<Real> functions_;
   SwitchScan<Real> scan_;
   double tolerance_;
 };

@@ -9,7 +9,7 @@ template <class Real>
 SwitchEffect<Real>::SwitchEffect(const System<Real>& system, const IntegratorOptions& options,
                                  const ErrorNorm<Real>& norm, Counters& counters)
     : norm_(norm),
-      switches_(system),
+      functions_(system),
       scan_(system),
       consistent_(system, options.derivatives, false, &counters),
       rate_norm_(system.sizes(), norm),
@@ -29,8 +29,8 @@ bool SwitchEffect<Real>::dueInside(const SolvedStep<Real>& step, const State<Rea
   // A switch can be due at a stage between two samples.
   const Scheme<Real>& scheme = step.eq.scheme();
   for (Index i = scheme.first; i < scheme.s && index < 0; ++i) {
-    const SwitchReport report = switches_.evaluate(step.eq.stage(step.stages.W, i));
-    index = report.outcome == Outcome::kSuccess ? switches_.due() : report.index;
+    const SwitchReport report = functions_.evaluate(step.eq.stage(step.stages.W, i));
+    index = report.outcome == Outcome::kSuccess ? functions_.due() : report.index;
     if (index >= 0) inside_ = scan_.at(scheme.c[i]);
   }
   return index >= 0;

@@ -32,7 +32,7 @@ class SwitchEffect {
 
  private:
   const ErrorNorm<Real>& norm_;
-  Switches<Real> switches_;
+  SwitchingFunctions<Real> functions_;
   SwitchScan<Real> scan_;
   ConsistentStart<Real> consistent_;
   RateNorm<Real> rate_norm_;

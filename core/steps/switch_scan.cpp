@@ -24,7 +24,7 @@ constexpr Index kMostStretches = 125;
 
 template <class Real>
 SwitchScan<Real>::SwitchScan(const System<Real>& system)
-    : switches_(system),
+    : functions_(system),
       dense_(system.sizes()),
       inside_(system.sizes()),
       last_(static_cast<std::size_t>(system.sizes().switches)),
@@ -58,7 +58,7 @@ std::span<const DueInside<Real>> SwitchScan<Real>::first(const State<Real>& from
                                                          const State<Real>& end, EndSample end_sample) {
   due_.clear();
   report_ = {};
-  if (switches_.none()) return due_;
+  if (functions_.none()) return due_;
   dense_.begin(from, stages);
   stretches_ = stretchesIn(static_cast<double>(from.t), static_cast<double>(stages.h));
   for (stretch_ = 0; stretch_ < stretches_; ++stretch_) {
@@ -91,8 +91,8 @@ bool SwitchScan<Real>::sample(Index j, const State<Real>& from, const State<Real
   } else if (!is_start && !is_end) {
     dense_.evaluateInside(j, inside_);
   }
-  report_ = switches_.evaluate(is_start ? from : is_end ? end : inside_);
-  g_.col(j) = switches_.g();
+  report_ = functions_.evaluate(is_start ? from : is_end ? end : inside_);
+  g_.col(j) = functions_.g();
   if (is_start && report_.outcome == Outcome::kSuccess) leaveRoundOff(from);
   return report_.outcome == Outcome::kSuccess;
 }
@@ -101,7 +101,7 @@ bool SwitchScan<Real>::sample(Index j, const State<Real>& from, const State<Real
 template <class Real>
 void SwitchScan<Real>::leaveRoundOff(const State<Real>& start) {
   for (Index i = 0; i < g_.rows(); ++i) {
-    if (g_(i, 0) > Real(0) && g_(i, 0) <= switches_.roundOff(start, i)) g_(i, 0) = Real(0);
+    if (g_(i, 0) > Real(0) && g_(i, 0) <= functions_.roundOff(start, i)) g_(i, 0) = Real(0);
   }
 }
 
@@ -156,7 +156,7 @@ void SwitchScan<Real>::lookForPeak(Index i, Index left, Index right, const Real&
 
 template <class Real>
 Real SwitchScan<Real>::value(const Real& theta, Index i) {
-  return switches_.evaluate(at(theta)).outcome == Outcome::kSuccess ? switches_.g()[i] : Real(1);
+  return functions_.evaluate(at(theta)).outcome == Outcome::kSuccess ? functions_.g()[i] : Real(1);
 }
 
 template <class Real>

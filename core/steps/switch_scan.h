@@ -68,7 +68,7 @@ class SwitchScan {
   void lookForCorner(Index i, Index end, Index inwards);
   void lookForPeak(Index i, Index left, Index right, const Real& g, const Real& bend);
 
-  Switches<Real> switches_;
+  SwitchingFunctions<Real> functions_;
   DenseOutput<Real> dense_;
   State<Real> inside_;
   double longest_ = std::numeric_limits<double>::infinity();  // stretch, by the looks

@@ -6,16 +6,16 @@
 #include "irk/multiprecision.h"
 
 namespace irk {
+
 template <class Real>
-Switches<Real>::Switches(const System<Real>& system)
+SwitchingFunctions<Real>::SwitchingFunctions(const System<Real>& system)
     : system_(system),
       g_(Vec<Real>::Constant(system.sizes().switches, Real(-1))),
       moved_g_(g_.size()),
-      moved_(none() ? Sizes{} : system.sizes()),
-      executed_(static_cast<std::size_t>(g_.size())) {}
+      moved_(none() ? Sizes{} : system.sizes()) {}
 
 template <class Real>
-SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
+SwitchReport SwitchingFunctions<Real>::evaluate(const Point<Real>& p) {
   using std::isfinite;  // for double; other scalars are found by their namespace
   if (none()) return {};
   system_.switching(p, VecView<Real>(g_.data(), g_.size()));
@@ -26,7 +26,7 @@ SwitchReport Switches<Real>::evaluate(const Point<Real>& p) {
 }
 
 template <class Real>
-Index Switches<Real>::due() const {
+Index SwitchingFunctions<Real>::due() const {
   for (Index i = 0; i < g_.size(); ++i) {
     if (g_[i] > Real(0)) return i;
   }
@@ -34,7 +34,7 @@ Index Switches<Real>::due() const {
 }
 
 template <class Real>
-Real Switches<Real>::roundOff(const State<Real>& state, Index i) {
+Real SwitchingFunctions<Real>::roundOff(const State<Real>& state, Index i) {
   using std::abs;
   using std::isfinite;
   Real largest(0);
@@ -56,10 +56,11 @@ Real Switches<Real>::roundOff(const State<Real>& state, Index i) {
 
 template <class Real>
 Index Switches<Real>::dueAt(const State<Real>& state) {
-  for (Index i = 0; i < g_.size(); ++i) {
-    if (!(g_[i] > Real(0))) continue;
+  const Vec<Real>& g = this->g();
+  for (Index i = 0; i < g.size(); ++i) {
+    if (!(g[i] > Real(0))) continue;
     const bool again = executed_at_ == state.t && executed_[static_cast<std::size_t>(i)];
-    if (!again || g_[i] > roundOff(state, i)) return i;
+    if (!again || g[i] > this->roundOff(state, i)) return i;
   }
   return -1;
 }
@@ -68,30 +69,31 @@ template <class Real>
 SwitchReport Switches<Real>::settle(State<Real>& state, Jumps jumps, const std::function<void(Index)>& done) {
   SwitchReport report;
   while (true) {
-    const SwitchReport at = evaluate(state);
+    const SwitchReport at = this->evaluate(state);
     if (at.outcome != Outcome::kSuccess) return at;
     const Index i = dueAt(state);
     if (i < 0) return report;
     report.index = i;
-    if (report.count == kSwitchRounds.whole() * g_.size()) {
+    if (report.count == kSwitchRounds.whole() * this->g().size()) {
       report.outcome = Outcome::kChattering;
       return report;
     }
     if (executed_at_ != state.t) executed_.assign(executed_.size(), false);
     executed_at_ = state.t;
     executed_[static_cast<std::size_t>(i)] = true;
-    system_.onSwitch(i, state);
-    if (jumps == Jumps::kDone) system_.jump(i, state);
+    this->system_.onSwitch(i, state);
+    if (jumps == Jumps::kDone) this->system_.jump(i, state);
     ++report.count;
     if (done) done(i);
   }
 }
 
 template <class Real>
-std::string Switches<Real>::describe(Index i) const {
+std::string SwitchingFunctions<Real>::describe(Index i) const {
   return i < 0 ? std::string() : "switching function '" + system_.switchName(i) + "'";
 }
 
+IRK_INSTANTIATE_CLASS(SwitchingFunctions)
 IRK_INSTANTIATE_CLASS(Switches)
 
 }  // namespace irk

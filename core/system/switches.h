@@ -46,38 +46,51 @@ class ChatterDetector {
   double last_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Evaluates the switching functions of one system and executes its switches. Owns scratch.
+/// The switching functions of one system. Owns scratch.
 template <class Real>
-class Switches {
+class SwitchingFunctions {
  public:
   /// Keeps a reference to the system.
-  explicit Switches(const System<Real>& system);
+  explicit SwitchingFunctions(const System<Real>& system);
 
   bool none() const { return g_.size() == 0; }
-  /// A new integration begins.
-  void begin() { executed_.assign(executed_.size(), false); }
   /// Evaluates g() at a point. kNotFinite names the first switching function that is not finite.
   SwitchReport evaluate(const Point<Real>& p);
   SwitchReport evaluate(const State<Real>& state) { return evaluate(pointOf(state)); }
   const Vec<Real>& g() const { return g_; }
   /// The first switch that is due by the last g(), or -1.
   Index due() const;
-  /// The same at `state`, for which g() was evaluated last. Behind a jump that sets a component to a surface g_i = 0,
-  /// g_i is round-off of either sign: one that was executed at this time is due again by more than its round-off only.
-  Index dueAt(const State<Real>& state);
   /// Round-off of function i at `state`, for which g() was evaluated last: the largest change of g_i when all
   /// components of u, v, x, a, k and z change by their last digits, with equal and with alternating signs.
   Real roundOff(const State<Real>& state, Index i);
-  /// Executes due switches, changing state.d (and u, v, x if they jump), until none is due. Calls `done` after each.
-  /// After a failure the state keeps the switches executed so far.
-  SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone, const std::function<void(Index)>& done = {});
   /// "switching function 'contact'".
   std::string describe(Index i) const;
 
- private:
+ protected:
   const System<Real>& system_;
+
+ private:
   Vec<Real> g_, moved_g_;
   State<Real> moved_;
+};
+
+/// Executes the switches of one system. Where a jump sets a component to a surface g_i = 0, g_i behind it is round-off
+/// of either sign: a switch that was executed at this time is due again by more than its round-off only.
+template <class Real>
+class Switches : public SwitchingFunctions<Real> {
+ public:
+  explicit Switches(const System<Real>& system)
+      : SwitchingFunctions<Real>(system), executed_(static_cast<std::size_t>(system.sizes().switches)) {}
+
+  /// A new integration begins.
+  void begin() { executed_.assign(executed_.size(), false); }
+  /// The first switch that is due at `state`, for which g() was evaluated last, or -1.
+  Index dueAt(const State<Real>& state);
+  /// Executes due switches, changing state.d (and u, v, x if they jump), until none is due. Calls `done` after each.
+  /// After a failure the state keeps the switches executed so far.
+  SwitchReport settle(State<Real>& state, Jumps jumps = Jumps::kDone, const std::function<void(Index)>& done = {});
+
+ private:
   Real executed_at_{};          // the time of executed_
   std::vector<bool> executed_;  // which switches were, at that time
 };
