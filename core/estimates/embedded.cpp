@@ -78,14 +78,17 @@ EmbeddedEstimate<Real>::EmbeddedEstimate(const System<Real>& system, const Schem
       counters_(counters),
       scaled_(scalesRows(system.rowPowers())),
       scales_(scaled_ ? sizes_.n() : 0),
-      weights_(scheme.s, 5),
+      full_(scheme.s, 2),
+      lower_(scheme.s, 2),
+      basis_(scheme.s),
       defect_(sizes_.n()),
       predicted_(sizes_.n()),
       slip_(sizes_.nu),
       e_(sizes_.n(), 1),
       inside_(sizes_.n(), kAtOnce) {
-  weights_.col(kFull) = atStart(scheme);
-  weights_.col(kFull + 1).noalias() = scheme.A_transposed * weights_.col(kFull);
+  legendre<Real>(Real(0), basis_);
+  full_.col(0) = atStart(scheme);
+  full_.col(1).noalias() = scheme.A_transposed * full_.col(0);
   for (State<Real>* of : {&at_, &error_, &beside_}) {
     of->u.setZero(sizes_.nu);
     of->v.setZero(sizes_.nu);
@@ -170,15 +173,15 @@ Outcome EmbeddedEstimate<Real>::filter(const Real& h, State<Real>& error) {
 }
 
 template <class Real>
-auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages, AtStart polynomial,
-                                      double again_above, State<Real>& error) -> Result {
+auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolynomial<Real>& stages,
+                                      const AtStart& polynomial, double again_above, State<Real>& error) -> Result {
   const Real& h = stages.h;
   Result result;
   if (scaled_) rowScales(system_.rowPowers(), h, scales_);
-  const auto column = [this](Index i) { return Eigen::Map<const Vec<Real>>(weights_.col(i).data(), scheme_.s); };
-  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), column(polynomial), defect_.data(), sizes_.n());
+  const auto column = [&](Index i) { return Eigen::Map<const Vec<Real>>(polynomial.col(i).data(), scheme_.s); };
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.n(), column(0), defect_.data(), sizes_.n());
   // v0 - V(0) = -h sum_j (A^T l)_j a_j
-  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, column(polynomial + 1), slip_.data(), sizes_.nu);
+  productOnThreads(threads_, stages.W.data(), sizes_.n(), sizes_.nu, column(1), slip_.data(), sizes_.nu);
   const Real factor = -mu_ * h * h;
   for (Index i = 0; i < sizes_.nu; ++i) {
     slip_[i] *= factor;
@@ -206,7 +209,7 @@ auto EmbeddedEstimate<Real>::estimate(const State<Real>& from, const StagePolyno
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluate(const State<Real>& from, const StagePolynomial<Real>& stages, double again_above)
     -> Result {
-  return estimate(from, stages, kFull, again_above, error_);
+  return estimate(from, stages, full_, again_above, error_);
 }
 
 template <class Real>
@@ -297,12 +300,10 @@ auto EmbeddedEstimate<Real>::filteredInside(const Point<Real>& p, const Real& h)
 template <class Real>
 auto EmbeddedEstimate<Real>::evaluateLower(const State<Real>& from, const StagePolynomial<Real>& stages, Index q)
     -> Result {
-  auto basis = weights_.col(kLower + 2);
-  legendre<Real>(Real(0), basis);
   const Index terms = beginsAtStart(scheme_.c) ? std::max<Index>(q - 1, 1) : q;
-  weights_.col(kLower).noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis.head(terms);
-  weights_.col(kLower + 1).noalias() = scheme_.A_transposed * weights_.col(kLower);
-  return estimate(from, stages, kLower, std::numeric_limits<double>::infinity(), beside_);
+  lower_.col(0).noalias() = scheme_.legendre_inverse.topRows(terms).transpose() * basis_.head(terms);
+  lower_.col(1).noalias() = scheme_.A_transposed * lower_.col(0);
+  return estimate(from, stages, lower_, std::numeric_limits<double>::infinity(), beside_);
 }
 
 IRK_INSTANTIATE_CLASS(EmbeddedEstimate)

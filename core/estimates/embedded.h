@@ -72,11 +72,10 @@ class EmbeddedEstimate {
   static Real weight(const Tableau<Real>& tableau);
 
  private:
-  // A polynomial through the stages, evaluated at the step's start: columns of weights_ with its weights l of the
-  // stages and, behind them, A^T l.
-  enum AtStart { kFull, kLower = 2 };  // with the full degree, and with a lower one
-  Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, AtStart polynomial, double again_above,
-                  State<Real>& error);
+  // Two columns: the weights l of the stages in a polynomial K at the step's start, and A^T l.
+  using AtStart = Mat<Real>;
+  Result estimate(const State<Real>& from, const StagePolynomial<Real>& stages, const AtStart& polynomial,
+                  double again_above, State<Real>& error);
   enum class EquationsAt { kStart, kInside };
   static constexpr Index kAtOnce = 8;  // points inside a step whose residuals are evaluated in one call
   Point<Real> pointAt(const Real& t, const Vec<Real>& u, const State<Real>& state) const;
@@ -101,13 +100,14 @@ class EmbeddedEstimate {
   std::optional<NewtonMatrix<Real>> own_;  // made when `stages_` cannot solve the real system
   bool scaled_;                            // whether any row is scaled
   Vec<Real> scales_;
-  Mat<Real> weights_;    // AtStart, and one column of scratch; s rows
-  Vec<Real> defect_;     // K(0), n
-  Vec<Real> predicted_;  // residualBehind, n
-  Vec<Real> slip_;       // h mu (v0 - V(0)), nu
-  State<Real> at_;       // u, v, x, d of the point where the residual is evaluated, unless that is the step's start
-  State<Real> error_;    // of `evaluate`
-  State<Real> beside_;   // of the other estimates
+  AtStart full_, lower_;  // through all stages, and with the degree that evaluateLower asks for
+  Vec<Real> basis_;       // orthonormal Legendre polynomials at 0, s
+  Vec<Real> defect_;      // K(0), n
+  Vec<Real> predicted_;   // residualBehind, n
+  Vec<Real> slip_;        // h mu (v0 - V(0)), nu
+  State<Real> at_;        // u, v, x, d of the point where the residual is evaluated, unless that is the step's start
+  State<Real> error_;     // of `evaluate`
+  State<Real> beside_;    // of the other estimates
   const State<Real>* last_ = &error_;
   Mat<Real> e_;       // n x 1
   Mat<Real> inside_;  // residuals of a few points inside the step, n x kAtOnce
