@@ -137,12 +137,6 @@ TEST(VariableOrder, PassesAJumpOfTheRates) {
   }
 }
 
-TEST(VariableOrder, RefusesSeveralMethodsOfFixedOrder) {
-  IntegratorOptions o = variable(1e-6);
-  o.order = OrderControl::kFixed;
-  EXPECT_THROW(Integrator<double>(makeSystem<double>(Riccati{}), makeMethods<double>("radau_iia_3", 13, 5), o), Misuse);
-}
-
 TEST(VariableOrder, RefusesOtherEstimatesAndFiles) {
   IntegratorOptions o = variable(1e-6);
   o.step.estimate = ErrorEstimate::kRichardson;

@@ -105,17 +105,6 @@ TEST(Figures, RobustnessShowsTheCollectionsAndSolversOfTheTable) {
   EXPECT_EQ(svg.find("multibody"), svg.npos) << "only collections with runs";
 }
 
-// All runs of every built-in study can be prepared, or are refused with a reason.
-TEST(Figures, StudiesHaveRunsThatResolve) {
-  for (const auto& entry : builtinStudies()) {
-    const Study study = loadStudy(entry.id, StudyVariant::kQuick);
-    ASSERT_FALSE(study.series.empty()) << entry.id;
-    for (const auto& series : study.series) {
-      EXPECT_NO_THROW((void)specKey(series.runs.front())) << entry.id;
-    }
-  }
-}
-
 TEST(Estimates, OfSmallStepsAreTheTrueErrors) {
   const Study study = parseStudy(R"(
 estimates = true

@@ -29,12 +29,6 @@ TEST(OrderFormula, FollowsTheory) {
   EXPECT_FALSE(orderFormula("gauss", SystemKind::kMechanical2, 'u')->theorem) << "a measured pattern";
 }
 
-// Every formula gives the order that theoreticalOrder gives, for single numbers of stages.
-TEST(OrderFormula, AgreesWithTheoryForFewStages) {
-  EXPECT_EQ(theoreticalOrder("gauss", 5, SystemKind::kIndex1, 'z')->order, 6) << "s + 1";
-  EXPECT_EQ(theoreticalOrder("lobatto_iiia", 5, SystemKind::kIndex2, 'z')->order, 4) << "s - 1";
-}
-
 Table orders(const std::vector<Cells>& rows) {
   return tableOf({"scene", "settings", "formulation", "family", "stages", "component", "power_of", "order", "theory",
                   "source", "h_min", "verdict"},

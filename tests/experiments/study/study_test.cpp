@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/study/builtin_studies.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -112,16 +111,6 @@ TEST(Study, AnalysesOfOneMethodRefuseVariableOrder) {
     EXPECT_NO_THROW(parsed(wanted + block + "methods = \"radau_iia_5\"\n"));
   }
   EXPECT_NO_THROW(parsed("title = \"none\"" + block + "methods = \"radau_iia\"\nconfiguration = \"variable\"\n"));
-}
-
-TEST(Study, BuiltInStudiesLoadInBothVariants) {
-  ASSERT_FALSE(builtinStudies().empty());
-  for (const auto& study : builtinStudies()) {
-    const Study full = loadStudy(study.id, StudyVariant::kFull);
-    const Study quick = loadStudy(study.id, StudyVariant::kQuick);
-    EXPECT_FALSE(full.title.empty()) << study.id;
-    EXPECT_LE(quick.series.size(), full.series.size()) << study.id;
-  }
 }
 
 }  // namespace
