@@ -104,23 +104,22 @@ AttemptResult VariableOrder<Real>::attempt(const State<Real>& from, const Real& 
   const double limit = again_ ? 1 / rank().strictness : std::numeric_limits<double>::infinity();
   auto estimate = member().estimate.evaluate(from, *past_, limit);
   result.outcome = estimate.outcome;
-  result.error = estimate.error * rank().strictness;
-  result.plain_error = estimate.error;
-  const auto raise = [&](const auto& raised) {
-    result.error = raised(result.error);
-    result.plain_error = raised(result.plain_error);
-  };
-  const auto raiseTo = [&](double other) { raise([&](double error) { return worse(error, order(), other, 1); }); };
+  // Strictness multiplies the estimate alone.
+  const double strict = estimate.error * rank().strictness;
+  double plain = estimate.error;
+  const auto raiseTo = [&](double other) { plain = worse(plain, order(), other, 1); };
   if (guards(Guard::kSwitchEffect)) raiseTo(result.mode_error);
   // What the defect shows between the stages says nothing about stiff components at the start, which a second filter
   // damps.
-  again_ = !(result.error <= 1);
-  if (result.outcome == Outcome::kSuccess && result.plain_error <= 1 && guards(Guard::kDefect)) {
+  again_ = !(std::max(strict, plain) <= 1);
+  if (result.outcome == Outcome::kSuccess && plain <= 1 && guards(Guard::kDefect)) {
     const auto between = member().defect.largest(from, *past_, to);
     result.outcome = between.outcome;
-    raise([&between](double error) { return std::max(error, between.error); });
+    plain = std::max(plain, between.error);
   }
   if (watches_start_ && guards(Guard::kRestart)) raiseTo(member().stepper.startDefect(from));
+  result.error = std::max(strict, plain);
+  result.too_strict = result.error > 1 && plain <= 1;
   lower_error_ = kUnknown;
   const bool good = result.outcome == Outcome::kSuccess && result.error <= 1;
   if (good && at_ > 0 && order_control_->needsLower()) {

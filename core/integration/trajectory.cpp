@@ -131,9 +131,9 @@ AttemptResult Trajectory<Real>::attempt(const Real& h) {
 template <class Real>
 StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h, double resolved) {
   controller_->factorsCost(jacobian_.factorsCost());
-  const bool takes_it = result.isTooStrict() && kShrinkAtMost * h < resolved;
+  const bool takes_it = result.too_strict && kShrinkAtMost * h < resolved;
   StepDecision decision = controller_->decide(takes_it ? 1 : result.error, h);
-  if (result.isTooStrict()) decision.h = std::max(decision.h, 2 * resolved);
+  if (result.too_strict) decision.h = std::max(decision.h, 2 * resolved);
   if (!decision.accept) last_rejection_ = "the error";
   rejected_ = !decision.accept;
   return decision;

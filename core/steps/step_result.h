@@ -25,13 +25,11 @@ struct StepResult {
 
 /// The result of an attempted step with its error estimate.
 struct AttemptResult : StepResult {
-  /// Estimate in the error norm, accepted up to 1 (but see isTooStrict); NaN without one. With variable order it is
+  /// Estimate in the error norm, accepted up to 1 (but see too_strict); NaN without one. With variable order it is
   /// multiplied by the member's strictness (core/control/order_controller.h).
   double error = 0;
-  /// The same without that strictness, where it is known.
-  double plain_error = std::numeric_limits<double>::infinity();
-  /// Whether strictness alone rejects the step. One of about the size that time resolves is accepted all the same.
-  bool isTooStrict() const { return error > 1 && plain_error <= 1; }
+  /// Whether that strictness alone rejects the step. One of about the size that time resolves is accepted all the same.
+  bool too_strict = false;
 };
 
 }  // namespace irk
