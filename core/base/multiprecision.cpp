@@ -161,31 +161,6 @@ BigFloat BigFloat::operator-() const {
   return result;
 }
 
-BigFloat BigFloat::sum(const BigFloat& a, const BigFloat& b) {
-  BigFloatResult result;
-  const BigFloatView x(a), y(b);
-  mpfr_add(result, x, y, kRound);
-  return result.number();
-}
-BigFloat BigFloat::difference(const BigFloat& a, const BigFloat& b) {
-  BigFloatResult result;
-  const BigFloatView x(a), y(b);
-  mpfr_sub(result, x, y, kRound);
-  return result.number();
-}
-BigFloat BigFloat::product(const BigFloat& a, const BigFloat& b) {
-  BigFloatResult result;
-  const BigFloatView x(a), y(b);
-  mpfr_mul(result, x, y, kRound);
-  return result.number();
-}
-BigFloat BigFloat::quotient(const BigFloat& a, const BigFloat& b) {
-  BigFloatResult result;
-  const BigFloatView x(a), y(b);
-  mpfr_div(result, x, y, kRound);
-  return result.number();
-}
-
 std::partial_ordering BigFloat::order(const BigFloat& a, const BigFloat& b) {
   if (a.isNan() || b.isNan()) return std::partial_ordering::unordered;
   const BigFloatView x(a), y(b);
@@ -234,6 +209,7 @@ IRK_TO_INTEGERS(IRK_DEFINE)
     mpfr_##name(result, first, second, kRound);                       \
     return result.number();                                           \
   }
+IRK_BIG_FLOAT_OPERATIONS(IRK_DEFINE)
 IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_DEFINE)
 #undef IRK_DEFINE
 

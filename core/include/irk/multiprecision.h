@@ -21,6 +21,7 @@
 #define IRK_ANGLES(F) F(sin) F(cos) F(tan) F(asin) F(acos) F(atan)
 #define IRK_HYPERBOLIC(F) F(sinh) F(cosh) F(tanh) F(asinh) F(acosh) F(atanh)
 #define IRK_TO_INTEGERS(F) F(floor) F(ceil) F(round) F(trunc)
+#define IRK_BIG_FLOAT_OPERATIONS(F) F(add) F(sub) F(mul) F(div)
 #define IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(F) F(pow) F(atan2) F(hypot) F(fmod)
 
 namespace irk {
@@ -83,17 +84,17 @@ class BigFloat {
   /// This number, rounded to the working digits.
   BigFloat rounded() const;
 
-  BigFloat& operator+=(const BigFloat& b) { return *this = sum(*this, b); }
-  BigFloat& operator-=(const BigFloat& b) { return *this = difference(*this, b); }
-  BigFloat& operator*=(const BigFloat& b) { return *this = product(*this, b); }
-  BigFloat& operator/=(const BigFloat& b) { return *this = quotient(*this, b); }
+  BigFloat& operator+=(const BigFloat& b) { return *this = addOf(*this, b); }
+  BigFloat& operator-=(const BigFloat& b) { return *this = subOf(*this, b); }
+  BigFloat& operator*=(const BigFloat& b) { return *this = mulOf(*this, b); }
+  BigFloat& operator/=(const BigFloat& b) { return *this = divOf(*this, b); }
   BigFloat operator-() const;
   BigFloat operator+() const { return *this; }
 
-  friend BigFloat operator+(const BigFloat& a, const BigFloat& b) { return sum(a, b); }
-  friend BigFloat operator-(const BigFloat& a, const BigFloat& b) { return difference(a, b); }
-  friend BigFloat operator*(const BigFloat& a, const BigFloat& b) { return product(a, b); }
-  friend BigFloat operator/(const BigFloat& a, const BigFloat& b) { return quotient(a, b); }
+  friend BigFloat operator+(const BigFloat& a, const BigFloat& b) { return addOf(a, b); }
+  friend BigFloat operator-(const BigFloat& a, const BigFloat& b) { return subOf(a, b); }
+  friend BigFloat operator*(const BigFloat& a, const BigFloat& b) { return mulOf(a, b); }
+  friend BigFloat operator/(const BigFloat& a, const BigFloat& b) { return divOf(a, b); }
   friend bool operator==(const BigFloat& a, const BigFloat& b) { return order(a, b) == 0; }
   friend std::partial_ordering operator<=>(const BigFloat& a, const BigFloat& b) { return order(a, b); }
 
@@ -129,15 +130,12 @@ class BigFloat {
   using Limb = unsigned long;
   static constexpr int kInside = 8;  // limbs of 64 bits: 150 digits, three times the default
 
-  static BigFloat sum(const BigFloat& a, const BigFloat& b);
-  static BigFloat difference(const BigFloat& a, const BigFloat& b);
-  static BigFloat product(const BigFloat& a, const BigFloat& b);
-  static BigFloat quotient(const BigFloat& a, const BigFloat& b);
   static std::partial_ordering order(const BigFloat& a, const BigFloat& b);
 #define IRK_MEMBER(name) static BigFloat name##Of(const BigFloat& x);
   IRK_BIG_FLOAT_FUNCTIONS(IRK_MEMBER)
 #undef IRK_MEMBER
 #define IRK_MEMBER(name) static BigFloat name##Of(const BigFloat& x, const BigFloat& y);
+  IRK_BIG_FLOAT_OPERATIONS(IRK_MEMBER)
   IRK_BIG_FLOAT_FUNCTIONS_OF_TWO(IRK_MEMBER)
 #undef IRK_MEMBER
   static BigFloat powerOf(const BigFloat& x, long long n);
