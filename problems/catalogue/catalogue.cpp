@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 #include <type_traits>
 
@@ -151,42 +152,29 @@ const SceneEntry& findScene(std::string_view id) {
   throw Misuse(unknownName("scene", id, known));
 }
 
-int indexOf(SceneKind kind) {
-  switch (kind) {
-    case SceneKind::kOde:
-    case SceneKind::kStiffTest:
-    case SceneKind::kSingularlyPerturbed:
-      return 0;
-    case SceneKind::kIndex1:
-      return 1;
-    case SceneKind::kIndex2:
-      return 2;
-    case SceneKind::kIndex3:
-    case SceneKind::kConstrained:
-      return 3;
-  }
-  return 0;
-}
+namespace {
 
-std::string_view meaningOf(SceneKind kind) {
-  switch (kind) {
-    case SceneKind::kOde:
-      return "differential equations";
-    case SceneKind::kStiffTest:
-      return "stiff test equation: y' = lambda (y - phi) + phi'";
-    case SceneKind::kSingularlyPerturbed:
-      return "singularly perturbed differential equations";
-    case SceneKind::kIndex1:
-      return "index 1: x' = f(x, z), 0 = g(x, z)";
-    case SceneKind::kIndex2:
-      return "index 2: x' = f(x, z), 0 = g(x)";
-    case SceneKind::kIndex3:
-      return "index 3: y' = f(y, w), w' = k(y, w, z), 0 = g(y)";
-    case SceneKind::kConstrained:
-      return "constrained mechanical system: M u'' = f - G^T z, 0 = g(u)";
-  }
-  return "?";
-}
+struct KindFacts {
+  int index;
+  std::string_view meaning;
+};
+// In the order of SceneKind.
+constexpr KindFacts kKinds[] = {
+    {0, "differential equations"},
+    {0, "stiff test equation: y' = lambda (y - phi) + phi'"},
+    {0, "singularly perturbed differential equations"},
+    {1, "index 1: x' = f(x, z), 0 = g(x, z)"},
+    {2, "index 2: x' = f(x, z), 0 = g(x)"},
+    {3, "index 3: y' = f(y, w), w' = k(y, w, z), 0 = g(y)"},
+    {3, "constrained mechanical system: M u'' = f - G^T z, 0 = g(u)"},
+};
+static_assert(std::size(kKinds) == static_cast<std::size_t>(SceneKind::kConstrained) + 1);
+
+}  // namespace
+
+int indexOf(SceneKind kind) { return kKinds[static_cast<std::size_t>(kind)].index; }
+
+std::string_view meaningOf(SceneKind kind) { return kKinds[static_cast<std::size_t>(kind)].meaning; }
 
 namespace {
 

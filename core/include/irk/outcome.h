@@ -1,6 +1,8 @@
 // How a numerical operation ended. Bad input is an exception (Misuse); numerical failures are these values.
 #pragma once
 
+#include <cstddef>
+#include <iterator>
 #include <string_view>
 
 namespace irk {
@@ -32,38 +34,10 @@ constexpr bool isRecoverable(Outcome outcome) {
 }
 
 /// The name in tables, CSV and JSON: `success`, `newton_failed`, ...
-constexpr std::string_view name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSuccess:
-      return "success";
-    case Outcome::kNewtonFailed:
-      return "newton_failed";
-    case Outcome::kStepTooSmall:
-      return "step_too_small";
-    case Outcome::kMaxSteps:
-      return "max_steps";
-    case Outcome::kTimeout:
-      return "timeout";
-    case Outcome::kInterrupted:
-      return "interrupted";
-    case Outcome::kNotFinite:
-      return "not_finite";
-    case Outcome::kSingular:
-      return "singular";
-    case Outcome::kInconsistentStart:
-      return "inconsistent_start";
-    case Outcome::kChattering:
-      return "chattering";
-    case Outcome::kStalled:
-      return "stalled";
-    case Outcome::kDrift:
-      return "drift";
-    case Outcome::kNoEvent:
-      return "no_event";
-    case Outcome::kInaccurate:
-      return "inaccurate";
-  }
-  return "?";
-}
+inline constexpr std::string_view kOutcomeNames[] = {
+    "success",  "newton_failed",      "step_too_small", "max_steps", "timeout", "interrupted", "not_finite",
+    "singular", "inconsistent_start", "chattering",     "stalled",   "drift",   "no_event",    "inaccurate"};
+static_assert(std::size(kOutcomeNames) == static_cast<std::size_t>(Outcome::kInaccurate) + 1);
+constexpr std::string_view name(Outcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
 
 }  // namespace irk
