@@ -1,8 +1,8 @@
-#include "core/newton/residual_newton.h"
-
+// Newton methods that stop on the residual: the paper's with its fallbacks, and full Newton.
 #include <algorithm>
 #include <cmath>
 
+#include "core/newton/newton.h"
 #include "core/newton/newton_base.h"
 #include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"

@@ -1,10 +1,10 @@
-#include "core/newton/simplified_newton.h"
-
+// Newton methods that stop on the increment: simplified Newton, and with Broyden's updates.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/newton/newton.h"
 #include "core/newton/newton_base.h"
 #include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"

@@ -3,11 +3,15 @@
 #include <optional>
 #include <utility>
 
-#include "core/newton/residual_newton.h"
-#include "core/newton/simplified_newton.h"
+#include "core/newton/newton.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
+
+// The methods that are wrapped.
+Strategy<NewtonKind> modifiedNewton();
+Strategy<NewtonKind> broydenNewton();
+
 namespace {
 
 enum class Reuse {
