@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "problems/support/equilibrium.h"
+#include "tests/problems/equilibrium.h"
 #include "tests/problems/scene_run.h"
 
 namespace irk::test {
@@ -73,13 +73,13 @@ TEST(AncfStop, RestsOnTheStopInEquilibrium) {
   const double slope = -0.3;  // the straight arm with its tip on the stop
   const double run = std::sqrt(1 - slope * slope);
   guess.u << run, slope, run / 2, slope / 2, run, slope, run, slope, run, slope;
-  const auto rest = findEquilibrium(*system, guess);
-  ASSERT_EQ(rest.outcome, Outcome::kSuccess);
-  const auto& u = rest.state.u;  // s0, r1, s1, tip, s2
+  const auto rest = equilibriumOf(*system, guess);
+  ASSERT_TRUE(rest);
+  const auto& u = rest->u;  // s0, r1, s1, tip, s2
   const double le = 0.5;
   const double area =
       le / 2 * u[2] + le * le / 12 * (u[0] - u[4]) + le / 2 * (u[2] + u[6]) + le * le / 12 * (u[4] - u[8]);
-  const double force = valueOf(scene, "N", rest.state);
+  const double force = valueOf(scene, "N", *rest);
   EXPECT_NEAR(force * u[6], kWeight * area, 1e-9 * kWeight);
   EXPECT_NEAR(force, 1e5 * (-0.3 - u[7]), 1e-9 * kWeight);
   EXPECT_GT(force, kWeight / 3);
