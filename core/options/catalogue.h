@@ -72,12 +72,7 @@ class Catalogue {
 
   /// The entry with this id. Throws Misuse for an unknown id; the message names the axis, the nearest id and all ids.
   const Strategy<Id>& operator[](const Id& id) const {
-    for (const auto& entry : entries_) {
-      if (entry->id == id) return *entry;
-    }
-    std::vector<std::string> known;
-    for (const auto& entry : entries_) known.emplace_back(entry->id.id);
-    throw Misuse(unknownName(axisName<Id>(), id.id, known));
+    return *entryNamed(axisName<Id>(), id.id, entries_, [](const auto& entry) { return entry->id.id; });
   }
   /// All entries, the default first; the view is valid until the next `add`.
   std::span<const Named<Id>> named() const { return named_; }

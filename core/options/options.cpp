@@ -1,8 +1,5 @@
 #include "irk/options.h"
 
-#include <string>
-#include <vector>
-
 #include "core/base/text.h"
 
 namespace irk {
@@ -54,23 +51,18 @@ constexpr Named<Guards> kGuards[] = {
 
 }  // namespace
 
-#define IRK_AXIS(E, table, axis)                                  \
-  template <>                                                     \
-  std::span<const Named<E>> named<E>() {                          \
-    return table;                                                 \
-  }                                                               \
-  template <>                                                     \
-  std::string_view axisName<E>() {                                \
-    return axis;                                                  \
-  }                                                               \
-  template <>                                                     \
-  E parseId<E>(std::string_view id) {                             \
-    for (const auto& entry : table) {                             \
-      if (entry.id == id) return entry.value;                     \
-    }                                                             \
-    std::vector<std::string> known;                               \
-    for (const auto& entry : table) known.emplace_back(entry.id); \
-    throw Misuse(unknownName(axis, id, known));                   \
+#define IRK_AXIS(E, table, axis)                             \
+  template <>                                                \
+  std::span<const Named<E>> named<E>() {                     \
+    return table;                                            \
+  }                                                          \
+  template <>                                                \
+  std::string_view axisName<E>() {                           \
+    return axis;                                             \
+  }                                                          \
+  template <>                                                \
+  E parseId<E>(std::string_view id) {                        \
+    return entryNamed(axis, id, table, &Named<E>::id).value; \
   }
 
 IRK_AXIS(Formulation, kFormulations, "formulation")

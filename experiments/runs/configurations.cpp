@@ -1,10 +1,6 @@
 #include "experiments/runs/configurations.h"
 
-#include <string>
-#include <vector>
-
 #include "core/base/text.h"
-#include "irk/misuse.h"
 
 namespace irk {
 namespace {
@@ -29,12 +25,7 @@ constexpr Configuration kConfigurations[] = {
 std::span<const Configuration> configurations() { return kConfigurations; }
 
 const Configuration& findConfiguration(std::string_view id) {
-  std::vector<std::string> known;
-  for (const auto& configuration : kConfigurations) {
-    if (configuration.id == id) return configuration;
-    known.emplace_back(configuration.id);
-  }
-  throw Misuse(unknownName("configuration", id, known));
+  return entryNamed("configuration", id, kConfigurations, &Configuration::id);
 }
 
 }  // namespace irk

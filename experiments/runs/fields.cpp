@@ -218,12 +218,7 @@ std::span<const SpecField> specFields() {
 
 const SpecField& findField(std::string_view name) {
   if (name == kErrorBarKey) name = axisName<ErrorBarUse>();
-  const auto fields = specFields();
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.name == name; });
-  if (found != fields.end()) return *found;
-  std::vector<std::string> known;
-  for (const auto& field : fields) known.push_back(field.name);
-  throw Misuse(unknownName("field", name, known));
+  return entryNamed("field", name, specFields(), &SpecField::name);
 }
 
 std::string optionName(std::string_view field) {

@@ -54,15 +54,6 @@ std::vector<Index> stageList(const StudyValue& value) {
   return stages;
 }
 
-const FamilyEntry& findFamily(std::string_view id) {
-  std::vector<std::string> known;
-  for (const auto& family : familyCatalogue()) {
-    if (family.id == id) return family;
-    known.push_back(family.id);
-  }
-  throw Misuse(unknownName("family", id, known));
-}
-
 // The ids in `methods`, or all `families` x `stages`; stages below a family's smallest member are left out.
 std::vector<std::string> methodList(const StudyKeys& keys) {
   std::vector<std::string> methods;
@@ -83,7 +74,7 @@ std::vector<std::string> methodList(const StudyKeys& keys) {
   if (families && !stages) throw Misuse(families->place + ": families need a list of stages");
   for (const auto& id : families ? families->items : std::vector<std::string>()) {
     const auto& family = atPlace(
-        *families, [&]() -> const auto& { return findFamily(id); });
+        *families, [&]() -> const auto& { return entryNamed("family", id, familyCatalogue(), &FamilyEntry::id); });
     for (const Index s : stageList(*stages)) {
       if (s >= family.min_stages) methods.push_back(fmt::format("{}_{}", id, s));
     }

@@ -143,14 +143,7 @@ void registerScene(SceneEntry entry) {
   catalogue().push_back(std::move(entry));
 }
 
-const SceneEntry& findScene(std::string_view id) {
-  for (const SceneEntry& entry : sceneCatalogue()) {
-    if (entry.id == id) return entry;
-  }
-  std::vector<std::string> known;
-  for (const SceneEntry& entry : sceneCatalogue()) known.push_back(entry.id);
-  throw Misuse(unknownName("scene", id, known));
-}
+const SceneEntry& findScene(std::string_view id) { return entryNamed("scene", id, sceneCatalogue(), &SceneEntry::id); }
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 #include <regex>
-#include <vector>
+#include <string_view>
 
 #include "core/base/text.h"
 #include "irk/misuse.h"
@@ -136,13 +136,8 @@ TableauReport checkTableau(std::string_view id_or_file) {
 std::string exportTableau(std::string_view id_or_file, std::string_view format) {
   static const std::map<std::string, std::string (*)(const TableauFile&), std::less<>> formats = {
       {"file", writeTableau}, {"latex", latexText}, {"numpy", numpyText}, {"c", cText}};
-  const auto found = formats.find(format);
-  if (found == formats.end()) {
-    std::vector<std::string> known;
-    for (const auto& [name, write] : formats) known.push_back(name);
-    throw Misuse(unknownName("format", format, known));
-  }
-  return found->second(findTableau(id_or_file));
+  const auto name_of = [](const auto& entry) { return std::string_view(entry.first); };
+  return entryNamed("format", format, formats, name_of).second(findTableau(id_or_file));
 }
 
 }  // namespace irk

@@ -101,12 +101,7 @@ const Family* findFamily(std::string_view id) {
   return found == families().end() ? nullptr : &*found;
 }
 
-const Family& familyOf(std::string_view id) {
-  if (const Family* family = findFamily(id)) return *family;
-  std::vector<std::string> known;
-  for (const Family& family : families()) known.push_back(family.id);
-  throw Misuse(unknownName("tableau family", id, known));
-}
+const Family& familyOf(std::string_view id) { return entryNamed("tableau family", id, families(), &Family::id); }
 
 void requireStages(const Family& family, Index s) {
   if (s >= family.minStages() && s <= kMaxStages) return;
