@@ -1,6 +1,6 @@
 #include "irk/options.h"
 
-#include "core/base/text.h"
+#include "core/options/axis.h"
 
 namespace irk {
 namespace {
@@ -51,20 +51,6 @@ constexpr Named<Guards> kGuards[] = {
 
 }  // namespace
 
-#define IRK_AXIS(E, table, axis)                             \
-  template <>                                                \
-  std::span<const Named<E>> named<E>() {                     \
-    return table;                                            \
-  }                                                          \
-  template <>                                                \
-  std::string_view axisName<E>() {                           \
-    return axis;                                             \
-  }                                                          \
-  template <>                                                \
-  E parseId<E>(std::string_view id) {                        \
-    return entryNamed(axis, id, table, &Named<E>::id).value; \
-  }
-
 IRK_AXIS(Formulation, kFormulations, "formulation")
 IRK_AXIS(ConstraintScaling, kScalings, "scaling")
 IRK_AXIS(DerivativeSource, kSources, "derivatives")
@@ -74,7 +60,6 @@ IRK_AXIS(Multipliers, kMultipliers, "multipliers")
 IRK_AXIS(JacobianPoint, kPoints, "jacobian_point")
 IRK_AXIS(NormKind, kNorms, "norm")
 IRK_AXIS(Guards, kGuards, "guards")
-#undef IRK_AXIS
 
 void validate(const SystemOptions& options) {
   static_cast<void>(parseId<Formulation>(idOf(options.formulation)));

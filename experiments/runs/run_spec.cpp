@@ -34,27 +34,10 @@ constexpr Named<ErrorBarUse> kErrorBarUses[] = {
      "a second integration, by another family with a tenth of the tolerance, gives an error bar (study files: true)"},
     {ErrorBarUse::kRefined, "refined", "the same, and the result is that of the strictest integration"}};
 
-template <class Axis>
-Axis valueOf(std::string_view id) {
-  std::vector<std::string> known;
-  for (const auto& entry : named<Axis>()) {
-    if (entry.id == id) return entry.value;
-    known.emplace_back(entry.id);
-  }
-  throw Misuse(unknownName(axisName<Axis>(), id, known));
-}
-
 }  // namespace
 
-template <>
-std::span<const Named<ScalarKind>> named<ScalarKind>() {
-  return kScalars;
-}
+IRK_AXIS_IDS(ScalarKind, kScalars, "scalar")
 std::string idOf(ScalarKind scalar) { return scalar.isDouble() ? "double" : fmt::format("mp{}", scalar.digits); }
-template <>
-std::string_view axisName<ScalarKind>() {
-  return "scalar";
-}
 template <>
 ScalarKind parseId<ScalarKind>(std::string_view id) {
   int digits = 0;
@@ -67,47 +50,12 @@ ScalarKind parseId<ScalarKind>(std::string_view id) {
           fmt::format("scalar '{}': mp{} to mp{} expected", id, ScalarKind::kLeastDigits, ScalarKind::kMostDigits));
     }
   }
-  return valueOf<ScalarKind>(id);
+  return entryNamed("scalar", id, kScalars, &Named<ScalarKind>::id).value;
 }
 
-template <>
-std::span<const Named<ConstraintUse>> named<ConstraintUse>() {
-  return kConstraintUses;
-}
-template <>
-std::string_view axisName<ConstraintUse>() {
-  return "constraints";
-}
-template <>
-ConstraintUse parseId<ConstraintUse>(std::string_view id) {
-  return valueOf<ConstraintUse>(id);
-}
-
-template <>
-std::span<const Named<ReferenceUse>> named<ReferenceUse>() {
-  return kReferenceUses;
-}
-template <>
-std::string_view axisName<ReferenceUse>() {
-  return "reference";
-}
-template <>
-ReferenceUse parseId<ReferenceUse>(std::string_view id) {
-  return valueOf<ReferenceUse>(id);
-}
-
-template <>
-std::span<const Named<ErrorBarUse>> named<ErrorBarUse>() {
-  return kErrorBarUses;
-}
-template <>
-std::string_view axisName<ErrorBarUse>() {
-  return "error_bars";
-}
-template <>
-ErrorBarUse parseId<ErrorBarUse>(std::string_view id) {
-  return valueOf<ErrorBarUse>(id);
-}
+IRK_AXIS(ConstraintUse, kConstraintUses, "constraints")
+IRK_AXIS(ReferenceUse, kReferenceUses, "reference")
+IRK_AXIS(ErrorBarUse, kErrorBarUses, "error_bars")
 
 double epsilonOf(ScalarKind scalar) {
   return scalar.isDouble() ? std::numeric_limits<double>::epsilon() : std::pow(10.0, -std::min(scalar.digits, 300));

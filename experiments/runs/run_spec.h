@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/options/axis.h"
 #include "irk/options.h"
 #include "irk/scene.h"
 
@@ -21,36 +22,21 @@ struct ScalarKind {
   bool operator==(const ScalarKind&) const = default;
 };
 std::string idOf(ScalarKind scalar);
-template <>
-std::span<const Named<ScalarKind>> named<ScalarKind>();
-template <>
-ScalarKind parseId<ScalarKind>(std::string_view id);
-template <>
-std::string_view axisName<ScalarKind>();
+IRK_DECLARE_AXIS(ScalarKind);
 
 /// Which position constraints are integrated.
 enum class ConstraintUse {
   kAll,
   kIndependent,  ///< those that a rank-revealing factorization chooses at the start; see irk/dependent_constraints.h
 };
-template <>
-std::span<const Named<ConstraintUse>> named<ConstraintUse>();
-template <>
-ConstraintUse parseId<ConstraintUse>(std::string_view id);
-template <>
-std::string_view axisName<ConstraintUse>();
+IRK_DECLARE_AXIS(ConstraintUse);
 
 /// How an error is measured if neither a closed form nor problems/reference gives the solution at t_end.
 enum class ReferenceUse {
   kNone,  ///< not at all: the error is unknown
   kAuto,  ///< with a reference that is computed and kept (experiments/reference)
 };
-template <>
-std::span<const Named<ReferenceUse>> named<ReferenceUse>();
-template <>
-ReferenceUse parseId<ReferenceUse>(std::string_view id);
-template <>
-std::string_view axisName<ReferenceUse>();
+IRK_DECLARE_AXIS(ReferenceUse);
 
 /// Whether the error of a success is measured by a second, independent integration (irk/error_bar.h).
 enum class ErrorBarUse {
@@ -58,12 +44,7 @@ enum class ErrorBarUse {
   kMeasured,  ///< the result keeps its values and gets an error bar
   kRefined,   ///< the result takes the values of the strictest integration, if that is stricter than the run
 };
-template <>
-std::span<const Named<ErrorBarUse>> named<ErrorBarUse>();
-template <>
-ErrorBarUse parseId<ErrorBarUse>(std::string_view id);
-template <>
-std::string_view axisName<ErrorBarUse>();
+IRK_DECLARE_AXIS(ErrorBarUse);
 
 inline constexpr int kMaxReferenceTimes = 1000;
 
