@@ -7,11 +7,20 @@
 #include <string>
 
 #include "experiments/runner/ranks.h"
-#include "experiments/runner/runner_options.h"
+#include "experiments/runner/shards.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
 
 namespace irk {
+
+/// How and where the runs of a study are made.
+struct RunnerOptions {
+  std::filesystem::path results = "results";
+  int jobs = 0;          ///< >= 0; 0 = one per processor
+  int timing_cores = 0;  ///< on which runs are timed at once, >= 0; 0 = as many as do not disturb each other
+  Shard shard;
+  store::StoreOptions store;
+};
 
 /// results/<study>, and for a shard the folder shard_<i>_of_<n> in it.
 std::filesystem::path studyFolder(const Study& study, const RunnerOptions& options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -11,13 +12,13 @@
 #include "experiments/analyses/orders/order_fit.h"
 #include "experiments/analyses/orders/row_theory.h"
 #include "experiments/analyses/orders/theory.h"
-#include "experiments/analyses/orders/theory_table.h"
 #include "experiments/base/numbers.h"
 #include "experiments/runs/block_names.h"
 #include "experiments/runs/run_spec.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/analysis.h"
 #include "irk/scene.h"
+#include "irk/tableaus.h"
 
 namespace irk {
 namespace {
@@ -124,15 +125,17 @@ void appendPowerOfZ(const Table& runs, const OverZ& over_z, TableWriter& orders)
   }
 }
 
+// One letter for each group of components that the system has.
+std::string componentLetters(const Sizes& n) {
+  return (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") + std::string(n.nz > 0 ? "z" : "");
+}
+
 // Adds rows for a method without successful runs, one for each group of components of the system.
 void appendFailure(const Table& runs, const TableRow& run, TableWriter& orders) {
   const auto kind = kindOf(runs, run, numberAt(runs, run, "h"));
-  const Sizes n = sizesOf(runs, run);
   OrderFit fit;
   fit.reason = "no run succeeded: " + textAt(runs, run, "outcome");
-  const std::string components =
-      (n.nu > 0 ? "uv" : "") + std::string(n.nx > 0 ? "x" : "") + std::string(n.nz > 0 ? "z" : "");
-  for (const char component : components) {
+  for (const char component : componentLetters(sizesOf(runs, run))) {
     const Theory theory = theoryFor(runs, run, kind, component);
     orders.add(orderRow(runs, run, component, "h", fit, theory, fit.reason));
   }
@@ -144,6 +147,86 @@ std::vector<const TableRow*> successes(const Table& runs, const RunSeries& serie
     if (succeededAt(runs, *row)) rows.push_back(row);
   }
   return rows;
+}
+
+// What distinguishes two curves of theory, apart from family and component.
+constexpr std::string_view kNames[] = {"scene", "settings", "formulation", "multipliers"};
+
+struct Family {
+  TableRow row;  // of its last series, with the finest step
+  std::optional<SystemKind> kind;
+  bool one_kind = true;
+};
+
+struct Group {
+  std::map<std::string, Family> families;
+  Index least = kMaxStages, most = 1;
+  std::string blocks;
+};
+
+void add(const Table& runs, const RunSeries& series, Group& group) {
+  const TableRow& row = *series.rows.back();
+  const auto stages = static_cast<Index>(numberAt(runs, row, "stages"));
+  const auto& family = textAt(runs, row, "family");
+  if (textAt(runs, row, "method") != fmt::format("{}_{}", family, stages)) return;  // of a user's file
+  group.least = std::min(group.least, stages);
+  group.most = std::max(group.most, stages);
+  addBlocks(group.blocks, series.blocks);
+  const auto kind = kindOf(runs, row, numberAt(runs, row, "h"));
+  const auto [at, added] = group.families.try_emplace(family, Family{row, kind});
+  at->second.one_kind = at->second.one_kind && (added || at->second.kind == kind);
+}
+
+TableRow withStages(const Table& runs, TableRow row, const std::string& family, Index stages) {
+  row[runs.column("stages")] = std::to_string(stages);
+  row[runs.column("method")] = fmt::format("{}_{}", family, stages);
+  return row;
+}
+
+void append(const Table& runs, const Group& group, const FamilyEntry& entry, TableWriter& table) {
+  const auto found = group.families.find(entry.id);
+  if (found == group.families.end() || !found->second.one_kind) return;
+  const auto& [row, kind, one_kind] = found->second;
+  for (const char component : componentLetters(sizesOf(runs, row))) {
+    // One stage more on both sides: a single measured number of stages would give a line of one point.
+    const Index first = std::max(group.least - 1, entry.min_stages), last = std::min<Index>(group.most + 1, kMaxStages);
+    for (Index s = first; s <= last; ++s) {
+      const TableRow member = withStages(runs, row, entry.id, s);
+      const Theory theory = theoryFor(runs, member, kind, component);
+      if (std::isnan(theory.order)) continue;
+      TableRow line;
+      for (const auto name : kNames) line.push_back(textAt(runs, row, name));
+      for (const auto* name : {"method", "family", "stages"}) line.push_back(textAt(runs, member, name));
+      line.insert(line.end(), {std::string(1, component), "h", numberText(theory.order), theory.source, group.blocks});
+      table.add(line);
+    }
+  }
+}
+
+// order_theory.csv: the theoretical orders of the families of a study for every number of stages, measured or not. From
+// runs.csv: for each scene, settings and formulation, each of its families and components, and every number of stages
+// from one below the smallest to one above the largest there. Figures draw theory from it, so that numbers of stages
+// that were not measured do not hide the steps between even and odd ones. Rows without a known order are left out.
+void writeTheory(const RunFile& runs, const std::filesystem::path& file) {
+  const Table& names = runs.names();
+  TableWriter table(file, names.head,
+                    {"scene", "settings", "formulation", "multipliers", "method", "family", "stages", "component",
+                     "power_of", "theory", "source", std::string(kBlockColumn)});
+  std::map<std::vector<std::string>, std::size_t> places;
+  std::vector<Group> groups;  // in the order of the runs
+  runs.forEachSeries([&](const RunSeries& series) {
+    const TableRow& row = *series.rows.back();
+    if (!hasFixedStepsAt(names, row)) return;
+    std::vector<std::string> name;
+    for (const auto column : kNames) name.push_back(textAt(names, row, column));
+    const auto [at, added] = places.try_emplace(name, groups.size());
+    if (added) groups.emplace_back();
+    add(names, series, groups[at->second]);
+  });
+  for (const Group& group : groups) {
+    for (const FamilyEntry& entry : familyCatalogue()) append(names, group, entry, table);
+  }
+  table.close();
 }
 
 }  // namespace
