@@ -13,7 +13,6 @@
 #include "experiments/base/numbers.h"
 #include "experiments/runs/setup.h"
 #include "experiments/runs/texts/component_names.h"
-#include "irk/error_bar.h"
 #include "irk/multiprecision.h"
 #include "irk/tableaus.h"
 
@@ -161,14 +160,9 @@ RunErrorBar measuredErrorBar(const RunSpec& spec, const Scene<Real>& scene, Solu
   if (spec.error_bar == ErrorBarUse::kNone || solution.outcome != Outcome::kSuccess) return {};
   const State<Real>& result = solution.state;
   const auto [bar, better, cpu_s, refines] = measured(spec, scene, result, watch);
-  RunErrorBar told;
-  told.u = bar.u, told.v = bar.v, told.x = bar.x, told.z = bar.z;
-  told.problem = bar.problem;
-  told.remark = bar.remark;
+  RunErrorBar told{bar};
   told.cpu_s = cpu_s;
-  if (!bar.known()) return told;
-  told.tolerances = bar.tolerances;
-  told.t = bar.t;
+  if (!told.known()) return told;
   const auto worst = static_cast<std::size_t>(std::max<Index>(bar.worst, 0));
   if (worst < scene.names.size()) told.component = scene.names[worst];
   const Index nu = result.u.size(), nx = result.x.size();

@@ -6,26 +6,24 @@
 #include <string>
 
 #include "experiments/runs/run_spec.h"
+#include "irk/error_bar.h"
 #include "irk/monitor.h"
 #include "irk/scene.h"
 
 namespace irk {
 
-/// The measured error of a result (irk/error_bar.h).
-struct RunErrorBar {
-  Vec<double> u, v, x, z;  ///< absolute, in the units of the components; NaN: unknown. Empty: not asked for
-  /// The largest of u, v, x in tolerances.
-  double tolerances = std::numeric_limits<double>::quiet_NaN();
-  double t = tolerances;  ///< of the time of the switch at which the run has ended (stop_at)
-  std::string component;  ///< the name of the component with the largest one
+/// The measured error of a result. If it is not asked for, u, v, x and z are empty, and known() says nothing.
+struct RunErrorBar : ErrorBar {
+  std::string component = {};  ///< the name of the worst one; empty if the bar is unknown
   /// The largest |e| / max(|y|, scale), the measure of RunErrors, over u, v, x and over z.
-  double error = tolerances, error_z = tolerances;
-  std::string problem;  ///< why the bar is unknown, in one line
-  std::string remark;   ///< what a known bar may not show, in one line
-  /// The one of the two that there is, or nothing.
-  const std::string& told() const { return problem.empty() ? remark : problem; }
+  double error = std::numeric_limits<double>::quiet_NaN();
+  double error_z = std::numeric_limits<double>::quiet_NaN();
   bool refined = false;  ///< whether the result is now that of a stricter integration, which the bar does not judge
-  double cpu_s = tolerances;  ///< of the integrations that measure it, without what is made before them
+  /// Of the integrations that measure it, without what is made before them.
+  double cpu_s = std::numeric_limits<double>::quiet_NaN();
+
+  /// The problem or the remark, whichever there is, or nothing.
+  const std::string& told() const { return problem.empty() ? remark : problem; }
 };
 
 /// The run that measures the error of a run with this resolved spec: Radau IIA, or Lobatto IIIC if the run's method is

@@ -150,12 +150,8 @@ class Prepared final : public PreparedRun {
   };
 
   std::vector<double> values(const State<Real>& state) const {
-    std::vector<double> all;
-    const auto append = [&all](const Vec<double>& y) { all.insert(all.end(), y.begin(), y.end()); };
-    append(rounded(state.u));
-    append(rounded(state.v));
-    append(rounded(state.x));
-    append(rounded(state.z()));
+    const Vec<double> y = rounded(components(state));
+    std::vector<double> all(y.begin(), y.end());
     for (const auto& output : scene_.outputs) {
       all.push_back(static_cast<double>(output.value(state)));
     }
@@ -214,26 +210,14 @@ class Prepared final : public PreparedRun {
                      .v = rounded(state.v),
                      .x = rounded(state.x),
                      .z = rounded(state.z()),
-                     .digits = {},
-                     .errors = {},
-                     .errors_over_time = {},
-                     .error_bar = {},
                      .counters = solution.counters,
-                     .switches = {},
-                     .invariants = {},
                      .cpu_s = seconds};
     // A state that violates its constraints is a final state as well: its error shows how large the violation is.
     if (solution.outcome == Outcome::kSuccess || solution.outcome == Outcome::kDrift) {
       record.errors = errorsAt(state, spec_, watch);
     }
     if constexpr (!std::is_same_v<Real, double>) {
-      const auto append = [&record](const auto& y) {
-        for (const Real& value : y) record.digits.push_back(value.str());
-      };
-      append(state.u);
-      append(state.v);
-      append(state.x);
-      append(state.z());
+      for (const Real& value : components(state)) record.digits.push_back(value.str());
     }
     return record;
   }
@@ -269,12 +253,11 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
 
 RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }
 
-FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch) {
+Solution<double> integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch) {
   RungeKutta<double> method(spec);
   Monitor<double> monitor;
   monitor.interrupt = interruption(watch, threadSeconds(), method.spec().time_limit);
-  auto solution = method.integrate(start, method.spec().t_end, monitor);
-  return {solution.outcome, std::move(solution.detail), std::move(solution.state)};
+  return method.integrate(start, method.spec().t_end, monitor);
 }
 
 RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make) {

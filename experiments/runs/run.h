@@ -13,6 +13,7 @@
 #include "experiments/runs/references/made_reference.h"
 #include "experiments/runs/run_errors.h"
 #include "experiments/runs/run_spec.h"
+#include "irk/monitor.h"
 #include "irk/outcome.h"
 #include "irk/statistics.h"
 
@@ -39,15 +40,15 @@ struct RunRecord {
   std::string outcome;  ///< as irk::name(Outcome), or `refused` for a misuse inside a sweep
   std::string detail;   ///< of a failure, in one line
   double t = std::numeric_limits<double>::quiet_NaN();
-  Vec<double> u, v, x, z;           ///< the last accepted state
-  std::vector<std::string> digits;  ///< u, v, x, z with all digits; of multiprecision runs only
-  RunErrors errors;
+  Vec<double> u, v, x, z;                ///< the last accepted state
+  std::vector<std::string> digits = {};  ///< u, v, x, z with all digits; of multiprecision runs only
+  RunErrors errors = {};
   /// the largest errors at the spec's reference_times; unknown unless the run is a success
-  RunErrors errors_over_time;
-  RunErrorBar error_bar;
+  RunErrors errors_over_time = {};
+  RunErrorBar error_bar = {};
   Counters counters;
-  std::vector<SwitchEvent> switches;        ///< the first kMaxRecordedSwitches
-  std::vector<InvariantChange> invariants;  ///< empty unless Watch::invariants is set
+  std::vector<SwitchEvent> switches = {};        ///< the first kMaxRecordedSwitches
+  std::vector<InvariantChange> invariants = {};  ///< empty unless Watch::invariants is set
   double cpu_s = std::numeric_limits<double>::quiet_NaN();
 
   bool succeeded() const { return outcome == name(Outcome::kSuccess); }
@@ -120,17 +121,10 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec);
 /// Prepares and makes a run. Throws Misuse as `prepare`.
 RunRecord execute(const RunSpec& spec, const Watch& watch = {});
 
-/// The result of integrateFrom.
-struct FinalState {
-  Outcome outcome = Outcome::kSuccess;
-  std::string detail;   ///< of a failure, in one line
-  State<double> state;  ///< the last accepted one, in the scene's unknowns
-};
-
 /// Integrates a spec in double precision with an implicit Runge-Kutta method, starting at `start`, a state of the
 /// scene that may differ from the scene's own start, up to the spec's t_end. Throws Misuse as `prepare`, and for a
 /// peer.
-FinalState integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
+Solution<double> integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
 
 /// For sweeps: returns `make()`, or a record with outcome `refused` if `make` throws Misuse.
 RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
