@@ -127,7 +127,6 @@ class Solver {
 
   Workspace& workspace() { return workspace_; }
   const Workspace& workspace() const { return workspace_; }
-  N_Vector atol() { return atol_; }
 
   /// Takes ownership of new memory.
   void own(void* memory) {

@@ -82,8 +82,6 @@ DaeProblem::DaeProblem(const System<double>& system, const ProblemOptions& optio
   pattern_ = fullPattern(layout_.n);
 }
 
-Vec<double> DaeProblem::perComponent(const Vec<double>& values, double) const { return values; }
-
 StartReport DaeProblem::begin(State<double>& state, bool new_run, PeerValues& to) {
   StartReport report = makeConsistent(state, new_run);
   if (report.outcome != Outcome::kSuccess) return report;

@@ -34,7 +34,6 @@ class DaeProblem final : public ImplicitProblem {
  public:
   DaeProblem(const System<double>& system, const ProblemOptions& options);
 
-  Vec<double> perComponent(const Vec<double>& values, double rest) const override;
   StartReport begin(State<double>& state, bool new_run, PeerValues& to) override;
   void read(const PeerStep& step, State<double>& state) const override;
   void switching(double t, const double* y, const double* yp, double* g) override;

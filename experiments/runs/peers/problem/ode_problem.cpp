@@ -40,8 +40,6 @@ OdeProblem::OdeProblem(const System<double>& system, const ProblemOptions& optio
   pattern_ = fullPattern(sizes_.nx);
 }
 
-Vec<double> OdeProblem::perComponent(const Vec<double>& values, double) const { return values; }
-
 StartReport OdeProblem::begin(State<double>& state, bool new_run, PeerValues& to) {
   d_ = state.d;
   to.y = state.x;
@@ -74,13 +72,6 @@ bool OdeProblem::evaluateForm(double t, const double* y, double* f) {
   VecView<double> rows(f, sizes_.nx);
   system_.evaluate(Level::kFormulated, point(t, y), rows);
   return rows.allFinite();
-}
-
-Evaluated OdeProblem::residual(double t, const double* y, const double* yp, double* r) {
-  const Evaluated evaluated = rates(t, y, r);
-  if (evaluated != Evaluated::kDone) return evaluated;
-  for (Index i = 0; i < sizes_.nx; ++i) r[i] -= yp[i];
-  return Evaluated::kDone;
 }
 
 bool OdeProblem::evaluateJacobian(double t, const double* y, const double*, double, PeerJacobian& J, double* dfdt) {

@@ -12,7 +12,6 @@ class OdeProblem final : public SceneProblem {
  public:
   OdeProblem(const System<double>& system, const ProblemOptions& options);
 
-  Vec<double> perComponent(const Vec<double>& values, double rest) const override;
   StartReport begin(State<double>& state, bool new_run, PeerValues& to) override;
   void read(const PeerStep& step, State<double>& state) const override;
   void switching(double t, const double* y, const double* yp, double* g) override;
@@ -21,7 +20,6 @@ class OdeProblem final : public SceneProblem {
     if (over()) return Evaluated::kStop;
     return evaluated(direct_.known() ? direct_.evaluate(t, y, f) : evaluateForm(t, y, f));
   }
-  Evaluated residual(double t, const double* y, const double* yp, double* r) override;
 
  protected:
   bool evaluateJacobian(double t, const double* y, const double* yp, double c, PeerJacobian& J, double* dfdt) override;
