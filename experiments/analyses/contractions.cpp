@@ -123,10 +123,8 @@ void writeContractions(const Study& study, const RunFile& runs, const std::files
 }
 
 Analysis contractionsAnalysis() {
-  return {.id = "contractions",
-          .key = "contractions",
+  return {.key = "contractions",
           .meaning = "Newton's contraction, iteration by iteration",
-          .reads = "runs.csv",
           .writes = "contractions.csv",
           .one_method = "the iterations of one method are counted",
           .run = [](const AnalysisInput& in) { writeContractions(in.study, in.runs, in.folder / "contractions.csv"); }};

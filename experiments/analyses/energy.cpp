@@ -98,10 +98,8 @@ void writeEnergy(const Study& study, const RunFile& runs, const std::filesystem:
 }
 
 Analysis energyAnalysis() {
-  return {.id = "energy",
-          .key = "energy",
+  return {.key = "energy",
           .meaning = "what round-off does to an energy over many steps",
-          .reads = "runs.csv",
           .writes = "energy.csv",
           .run = [](const AnalysisInput& in) { writeEnergy(in.study, in.runs, in.folder / "energy.csv"); }};
 }

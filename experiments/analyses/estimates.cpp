@@ -135,10 +135,8 @@ void writeEstimates(const Study& study, const RunFile& runs, const std::filesyst
 }
 
 Analysis estimatesAnalysis() {
-  return {.id = "estimates",
-          .key = "estimates",
+  return {.key = "estimates",
           .meaning = "true errors of single steps over their estimates",
-          .reads = "runs.csv",
           .writes = "estimates.csv",
           .one_method = "the error of a step is compared with one method's estimate",
           .run = [](const AnalysisInput& in) { writeEstimates(in.study, in.runs, in.folder / "estimates.csv"); }};

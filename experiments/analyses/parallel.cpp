@@ -112,10 +112,8 @@ Table parallelTable(const Study& study, const RunFile& runs, const std::vector<i
 }
 
 Analysis parallelAnalysis() {
-  return {.id = "parallel",
-          .key = "parallel",
+  return {.key = "parallel",
           .meaning = "what more processors gain: one run on several threads, several runs at a time",
-          .reads = "runs.csv",
           .writes = "parallel.csv",
           .run = [](const AnalysisInput& in) {
             const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

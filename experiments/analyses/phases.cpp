@@ -242,10 +242,8 @@ Table phaseTable(const Study& study, const RunFile& runs, std::ostream& out) {
 }
 
 Analysis phasesAnalysis() {
-  return {.id = "phases",
-          .key = "phases",
+  return {.key = "phases",
           .meaning = "shares of residuals, Jacobians, factorizations and solves in a run's time",
-          .reads = "runs.csv",
           .writes = "phases.csv",
           .one_method = "the parts of a run are timed with one method's matrices",
           .run = [](const AnalysisInput& in) {

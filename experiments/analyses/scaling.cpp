@@ -115,10 +115,8 @@ Table scalingSlopes(const Table& scaling) {
 }
 
 Analysis scalingAnalysis() {
-  return {.id = "scaling",
-          .key = "scaling",
+  return {.key = "scaling",
           .meaning = "the time of a step over unknowns, stages and threads, with slopes",
-          .reads = "runs.csv",
           .writes = "scaling.csv scaling_slopes.csv",
           .one_method = "the time of a step is compared between methods of fixed stages",
           .run = [](const AnalysisInput& in) {

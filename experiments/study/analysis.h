@@ -23,12 +23,12 @@ struct AnalysisInput {
 };
 
 struct Analysis {
-  std::string_view id;
   /// The key of a study file that requests it: `key = true`, or a list of errors, `targets = [1e-4, 1e-6]`.
   std::string_view key;
-  std::string_view meaning;  ///< one line
-  std::string_view reads;    ///< files of results/<study>
-  std::string_view writes;   ///< the same, separated by blanks
+  std::string_view id = key;            ///< its name in lists
+  std::string_view meaning;             ///< one line
+  std::string_view reads = "runs.csv";  ///< files of results/<study>
+  std::string_view writes;              ///< the same, separated by blanks
   /// The reason why it requires runs of one method each and refuses variable order; empty if it accepts both.
   std::string_view one_method = {};
   /// Another key of the study that this analysis requires; empty if none.

@@ -114,10 +114,9 @@ void writeCosts(const RunFile& runs, const std::vector<double>& targets, const s
 
 Analysis costAnalysis() {
   return {
-      .id = "cost",
       .key = "targets",
+      .id = "cost",
       .meaning = "what each method costs at the errors of `targets`",
-      .reads = "runs.csv",
       .writes = "cpu_at_error.csv",
       .run = [](const AnalysisInput& in) { writeCosts(in.runs, in.study.targets, in.folder / "cpu_at_error.csv"); }};
 }

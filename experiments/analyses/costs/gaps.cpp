@@ -61,10 +61,8 @@ void writeGaps(const RunFile& runs, const std::filesystem::path& file) {
 }
 
 Analysis gapsAnalysis() {
-  return {.id = "gaps",
-          .key = "gaps",
+  return {.key = "gaps",
           .meaning = "the runs that are not right although another solver's run of the same problem is",
-          .reads = "runs.csv",
           .writes = "gaps.csv",
           .run = [](const AnalysisInput& in) { writeGaps(in.runs, in.folder / "gaps.csv"); }};
 }

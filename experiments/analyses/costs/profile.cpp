@@ -66,8 +66,7 @@ void writeProfile(const std::filesystem::path& costs, const std::filesystem::pat
 }
 
 Analysis profileAnalysis() {
-  return {.id = "profile",
-          .key = "profile",
+  return {.key = "profile",
           .meaning = "performance profiles of integrators at the errors of `targets`",
           .reads = "cpu_at_error.csv",
           .writes = "profile.csv",

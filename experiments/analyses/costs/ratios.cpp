@@ -141,10 +141,8 @@ void writeRatios(const RunFile& runs, const std::vector<double>& targets, const 
 }
 
 Analysis ratiosAnalysis() {
-  return {.id = "ratios",
-          .key = "ratios",
+  return {.key = "ratios",
           .meaning = "what each choice of a block costs, over its first choice, at the errors of `targets`",
-          .reads = "runs.csv",
           .writes = "ratios.csv",
           .needs = "targets",
           .run = [](const AnalysisInput& in) { writeRatios(in.runs, in.study.targets, in.folder / "ratios.csv"); }};

@@ -93,10 +93,8 @@ void writeRobustness(const RunFile& runs, const std::filesystem::path& file) {
 }
 
 Analysis robustnessAnalysis() {
-  return {.id = "robustness",
-          .key = "robustness",
+  return {.key = "robustness",
           .meaning = "how many runs are right, fail, or are wrong, by collection, solver and tolerance",
-          .reads = "runs.csv",
           .writes = "robustness.csv",
           .run = [](const AnalysisInput& in) { writeRobustness(in.runs, in.folder / "robustness.csv"); }};
 }

@@ -261,10 +261,8 @@ void writeOrders(const RunFile& runs, const std::filesystem::path& file) {
 }
 
 Analysis ordersAnalysis() {
-  return {.id = "orders",
-          .key = "orders",
+  return {.key = "orders",
           .meaning = "observed orders of convergence, with what theory says",
-          .reads = "runs.csv",
           .writes = "orders.csv order_theory.csv",
           .run = [](const AnalysisInput& in) {
             writeOrders(in.runs, in.folder / "orders.csv");
