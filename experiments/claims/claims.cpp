@@ -21,6 +21,7 @@ Measurement measure(Evaluation evaluate, Setting setting, const ResultTables& ta
 
 Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
                   const std::vector<std::string>& multibody, Evaluation evaluate) {
+  if (!evaluate) evaluate = evaluationOf(part.id);
   const std::string& not_applied = part.not_applied[static_cast<std::size_t>(setting)];
   Finding finding;
   if (!not_applied.empty()) {
@@ -41,11 +42,6 @@ Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
     if (measured) finding.judged.reason = std::string(kPreliminary);
   }
   return finding;
-}
-
-Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
-                  const std::vector<std::string>& multibody) {
-  return findingOn(part, setting, tables, multibody, evaluationOf(part.id));
 }
 
 Verdict ClaimFindings::verdict(Setting setting) const {

@@ -23,12 +23,9 @@ struct Finding {
 
 /// Measures a part and judges it. The result is `not measurable`, with the reason, if a study has not been run, if its
 /// table is of another version, or if these are results of --quick, which give no verdict (the number is kept).
-/// `multibody`: the scenes that vote on parts about multibody systems.
+/// `multibody`: the scenes that vote on parts about multibody systems. `evaluate`: null for the part's own evaluation.
 Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
-                  const std::vector<std::string>& multibody);
-/// The same with the given evaluation.
-Finding findingOn(const Part& part, Setting setting, const ResultTables& tables,
-                  const std::vector<std::string>& multibody, Evaluation evaluate);
+                  const std::vector<std::string>& multibody, Evaluation evaluate = nullptr);
 
 struct ClaimFindings {
   const Claim* claim;

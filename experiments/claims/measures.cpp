@@ -193,15 +193,6 @@ Table inBlocks(const ResultTables& tables, std::string_view study, const Blocks&
   return chosen;
 }
 
-std::vector<std::string> distinct(const Table& table, std::string_view column) {
-  std::vector<std::string> cells;
-  for (const auto& row : table.rows) {
-    const auto& cell = textAt(table, row, column);
-    if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
-  }
-  return cells;
-}
-
 std::vector<double> numbersOf(const Table& table, std::string_view column) {
   std::vector<double> numbers;
   for (const auto& row : table.rows) {
@@ -249,8 +240,6 @@ Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Set
 double evaluationsAt(const Table& runs, const TableRow& run) {
   return numberAt(runs, run, "residuals") + numberAt(runs, run, "dual_residuals");
 }
-
-std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
 
 std::span<const double> comparedErrors() { return kErrors; }
 

@@ -26,8 +26,6 @@ using Blocks = std::vector<std::string_view>;
 Table inBlocks(const ResultTables& tables, std::string_view study, const Blocks& blocks);
 /// The rows that the test accepts.
 Table where(const Table& table, const std::function<bool(const TableRow&)>& test);
-/// Different cells, in order of appearance.
-std::vector<std::string> distinct(const Table& table, std::string_view column);
 /// The numbers of a column, NaN left out.
 std::vector<double> numbersOf(const Table& table, std::string_view column);
 
@@ -55,9 +53,6 @@ Table timedClaimRuns(const ResultTables& tables, std::string_view beginning, Set
 
 /// Residual evaluations of a run, over plain numbers and over dual ones.
 double evaluationsAt(const Table& runs, const TableRow& run);
-
-/// `5 %`.
-std::string percent(double part);
 
 /// The errors at which costs are compared.
 std::span<const double> comparedErrors();
