@@ -17,7 +17,7 @@ namespace irk {
 
 namespace {
 
-std::string headEntry(const std::filesystem::path& file, std::string_view key) {
+std::string fileEntry(const std::filesystem::path& file, std::string_view key) {
   const auto start = "# " + std::string(key) + ": ";
   std::ifstream in(file);
   for (std::string line; std::getline(in, line) && line.starts_with('#');) {
@@ -28,18 +28,13 @@ std::string headEntry(const std::filesystem::path& file, std::string_view key) {
 
 }  // namespace
 
-std::string refusedTimes(const TableHead& head) {
-  for (const auto& [key, value] : head) {
-    if (key == store::kTimesRefused) return value;
-  }
-  return {};
-}
+std::string refusedTimes(const TableHead& head) { return headEntry(head, store::kTimesRefused); }
 
-std::string refusedTimes(const std::filesystem::path& runs) { return headEntry(runs, store::kTimesRefused); }
+std::string refusedTimes(const std::filesystem::path& runs) { return fileEntry(runs, store::kTimesRefused); }
 
-std::string timesDrift(const std::filesystem::path& runs) { return headEntry(runs, store::kTimesDrift); }
+std::string timesDrift(const std::filesystem::path& runs) { return fileEntry(runs, store::kTimesDrift); }
 
-std::string timingCores(const std::filesystem::path& runs) { return headEntry(runs, store::kTimingCores); }
+std::string timingCores(const std::filesystem::path& runs) { return fileEntry(runs, store::kTimingCores); }
 
 void tellDrift(const std::string& study, const std::filesystem::path& runs, std::ostream& out) {
   const auto drift = timesDrift(runs);

@@ -6,6 +6,7 @@
 
 #include "experiments/base/numbers.h"
 #include "experiments/tables/environment.h"
+#include "experiments/tables/named_cells.h"
 #include "irk/tableaus.h"
 #include "tableaus/analysis/properties.h"
 #include "tableaus/catalogue/source.h"
@@ -14,11 +15,9 @@
 namespace irk {
 namespace {
 
-using Cells = std::vector<std::pair<std::string, std::string>>;
-
 std::string truth(bool value) { return value ? "1" : "0"; }
 
-Cells propertyCells(const Tableau<BigFloat>& tableau, const TableauProperties& properties) {
+NamedCells propertyCells(const Tableau<BigFloat>& tableau, const TableauProperties& properties) {
   const auto& [analysis, kind, quadrature, symmetric, R, stability, spectrum] = properties;
   return {{"method", tableau.id},
           {"family", tableau.family},
@@ -49,25 +48,15 @@ Cells propertyCells(const Tableau<BigFloat>& tableau, const TableauProperties& p
           {"defective", truth(spectrum.defective)}};
 }
 
-void append(const Cells& cells, Table& table) {
-  table.columns.clear();
-  table.rows.emplace_back();
-  for (const auto& [column, value] : cells) {
-    table.columns.push_back(column);
-    table.rows.back().push_back(value);
-  }
-}
-
 void appendRoots(const Tableau<BigFloat>& tableau, const StabilityFunction& R, Table& table) {
   const auto add = [&](const char* root, const std::vector<std::complex<double>>& places) {
     for (const auto& z : places) {
-      append({{"method", tableau.id},
-              {"family", tableau.family},
-              {"stages", std::to_string(tableau.stages())},
-              {"root", root},
-              {"re", numberText(z.real())},
-              {"im", numberText(z.imag())}},
-             table);
+      addRow(table, {{"method", tableau.id},
+                     {"family", tableau.family},
+                     {"stages", std::to_string(tableau.stages())},
+                     {"root", root},
+                     {"re", numberText(z.real())},
+                     {"im", numberText(z.imag())}});
     }
   };
   add("zero", R.zeros);
@@ -82,7 +71,7 @@ TableauTables tableauTables(const std::vector<std::string>& methods) {
   for (const auto& method : methods) {
     const TableauFile file = findTableau(method);
     const auto properties = analyzeProperties(file.tableau, toleranceOfDigits(file.digits));
-    append(propertyCells(file.tableau, properties), tables.properties);
+    addRow(tables.properties, propertyCells(file.tableau, properties));
     appendRoots(file.tableau, properties.R, tables.stability);
   }
   return tables;

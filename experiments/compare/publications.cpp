@@ -21,11 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string headEntry(const Table& table, std::string_view name) {
-  const auto at = std::ranges::find(table.head, name, &TableHead::value_type::first);
-  return at == table.head.end() ? "" : at->second;
-}
-
 fs::path recordOf(const fs::path& folder) { return folder / "published.csv"; }
 
 std::set<std::string> tableNames(const fs::path& folder) {
@@ -61,7 +56,7 @@ class TableComparison {
  public:
   TableComparison(const fs::path& first, const fs::path& second, const Limits& limits)
       : first_(readTable(first)), second_(readTable(second)), limits_(limits) {
-    const std::string key = headEntry(first_, "key");
+    const std::string key = headEntry(first_.head, "key");
     if (key.empty()) throw Misuse(fmt::format("{}: no line '# key:', which irk publish writes", first.string()));
     std::istringstream in(key);
     for (std::string column; in >> column;) keys_.push_back(column);
@@ -129,9 +124,9 @@ class TableComparison {
   std::vector<Changed> found_;
 };
 
-std::string originOf(const Table& record) {
-  return fmt::format("version {}, code {}, commit {}, {}", headEntry(record, "version"), headEntry(record, "code"),
-                     headEntry(record, "commit"), headEntry(record, "date"));
+std::string originOf(const TableHead& head) {
+  return fmt::format("version {}, code {}, commit {}, {}", headEntry(head, "version"), headEntry(head, "code"),
+                     headEntry(head, "commit"), headEntry(head, "date"));
 }
 
 }  // namespace
@@ -143,11 +138,11 @@ bool isPublication(const fs::path& folder) {
 
 PublicationDifferences comparePublications(const fs::path& first, const fs::path& second, const Limits& limits) {
   const Table records[] = {readTable(recordOf(first)), readTable(recordOf(second))};
-  if (headEntry(records[0], "quick") != headEntry(records[1], "quick")) {
+  if (headEntry(records[0].head, "quick") != headEntry(records[1].head, "quick")) {
     throw Misuse(fmt::format("{} and {}: only one of them is of quick runs", first.string(), second.string()));
   }
   PublicationDifferences all;
-  all.text = fmt::format("first: {}\nsecond: {}\n", originOf(records[0]), originOf(records[1]));
+  all.text = fmt::format("first: {}\nsecond: {}\n", originOf(records[0].head), originOf(records[1].head));
   const auto here = tableNames(first), there = tableNames(second);
   std::set<std::string> names = here;
   names.insert(there.begin(), there.end());

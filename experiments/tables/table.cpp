@@ -40,6 +40,11 @@ std::size_t cellEnd(std::string_view line, std::size_t at) {
 
 }  // namespace
 
+std::string headEntry(const TableHead& head, std::string_view key) {
+  const auto at = std::ranges::find(head, key, &TableHead::value_type::first);
+  return at == head.end() ? "" : at->second;
+}
+
 std::size_t Table::column(std::string_view name) const {
   const auto at = std::find(columns.begin(), columns.end(), name);
   if (at == columns.end()) throw Misuse(unknownName("column", name, columns));

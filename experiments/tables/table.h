@@ -14,6 +14,9 @@ namespace irk {
 using TableHead = std::vector<std::pair<std::string, std::string>>;
 using TableRow = std::vector<std::string>;
 
+/// The value of the first line of the head with this key; empty if there is none.
+std::string headEntry(const TableHead& head, std::string_view key);
+
 struct Table {
   TableHead head;
   std::vector<std::string> columns;

@@ -16,11 +16,6 @@ namespace {
 
 constexpr const char* kFromHead[] = {"code", "version", "commit", "date", "compiler", "flags", "libraries", "cpu"};
 
-std::string entryOf(const TableHead& head, std::string_view name) {
-  const auto at = std::ranges::find(head, name, &TableHead::value_type::first);
-  return at == head.end() ? "" : at->second;
-}
-
 // A library's file without its folder, which tells nothing on another machine: `SUNDIALS 7.5.0,
 // /opt/lib/libsundials.so`.
 std::string withoutFolders(const std::string& text) {
@@ -71,15 +66,15 @@ PublishedRuns publishedRuns(const ReportOptions& options, const std::vector<std:
       continue;
     }
     const TableHead head = TableFile(file).names().head;
-    const MadeBy made = madeBy(entryOf(head, "code"));
+    const MadeBy made = madeBy(headEntry(head, "code"));
     if (made.code != buildInfo().code) faults.other_code.push_back(study);
     if (!refusedTimes(head).empty()) faults.no_times.push_back(study);
     if (const auto drift = timesDrift(file); !drift.empty()) runs.doubts.push_back(fmt::format("{}: {}", study, drift));
     TableRow row{study, made.rows, made.code};
     for (const auto* name : kFromHead) {
-      if (std::string_view(name) != "code") row.push_back(withoutFolders(entryOf(head, name)));
+      if (std::string_view(name) != "code") row.push_back(withoutFolders(headEntry(head, name)));
     }
-    const std::string date = entryOf(head, "date");
+    const std::string date = headEntry(head, "date");
     last_date = std::max(last_date, date.substr(date.rfind(' ') + 1));
     runs.table.rows.push_back(std::move(row));
   }
