@@ -5,25 +5,11 @@
 namespace irk {
 
 std::string escapeHtml(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html.append("&amp;");
-        break;
-      case '<':
-        html.append("&lt;");
-        break;
-      case '>':
-        html.append("&gt;");
-        break;
-      case '"':
-        html.append("&quot;");
-        break;
-      default:
-        html.push_back(c);
-    }
-  }
+  std::string html(text);
+  replacePlaceholder(html, "&", "&amp;");
+  replacePlaceholder(html, "<", "&lt;");
+  replacePlaceholder(html, ">", "&gt;");
+  replacePlaceholder(html, "\"", "&quot;");
   return html;
 }
 

@@ -12,6 +12,7 @@
 
 #include "experiments/analyses/results.h"
 #include "experiments/audit/row_judgement.h"
+#include "experiments/base/html.h"
 #include "experiments/base/numbers.h"
 #include "experiments/report/own_figures.h"
 #include "experiments/runs/run_table.h"
@@ -42,16 +43,9 @@ bool isDigits(std::string_view column) { return column == "mescd" || column == "
 
 // Safe inside <script> (no '<') and against placeholders (no '@').
 std::string safeText(const Json& json) {
-  std::string safe;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else if (c == '@') {
-      safe += "\\u0040";
-    } else {
-      safe += c;
-    }
-  }
+  std::string safe = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  replacePlaceholder(safe, "<", "\\u003c");
+  replacePlaceholder(safe, "@", "\\u0040");
   return safe;
 }
 
