@@ -13,23 +13,12 @@
 #include "experiments/base/numbers.h"
 #include "experiments/report/answers/formula.h"
 #include "experiments/runs/run_table.h"
+#include "irk/tableaus.h"
 
 namespace irk::report {
 namespace {
 
 constexpr const char* kOrderStudy = "order";
-
-struct Family {
-  const char *id, *title;
-};
-constexpr Family kFamilies[] = {{"gauss", "Gauss"},
-                                {"radau_ia", "Radau IA"},
-                                {"radau_iia", "Radau IIA"},
-                                {"lobatto_iiia", "Lobatto IIIA"},
-                                {"lobatto_iiib", "Lobatto IIIB"},
-                                {"lobatto_iiic", "Lobatto IIIC"},
-                                {"lobatto_iiics", "Lobatto IIIC*"},
-                                {"lobatto_iiid", "Lobatto IIID"}};
 
 struct System {
   SystemKind kind;
@@ -88,7 +77,7 @@ std::string cellHtml(const OrderFormula& formula, const OrderCheck& check) {
 
 void appendRow(const System& system, char component, const std::map<Place, OrderCheck>& checks, Answer& answer) {
   HtmlTable::Row shown{{escapeHtml(system.title), componentTitle(component)}};
-  for (const auto& family : kFamilies) {
+  for (const auto& family : familyCatalogue()) {
     const auto formula = orderFormula(family.id, system.kind, component);
     const auto found = checks.find({system.kind, component, family.id});
     const OrderCheck check = found == checks.end() ? OrderCheck{} : found->second;
@@ -102,28 +91,22 @@ void appendRow(const System& system, char component, const std::map<Place, Order
   (system.important ? answer.shown : answer.more).rows.push_back(std::move(shown));
 }
 
-std::vector<std::string> titlesOf(const std::vector<const Family*>& families) {
-  std::vector<std::string> titles;
-  for (const auto* family : families) titles.emplace_back(family->title);
-  return titles;
-}
-
 // Which families keep the order of ODEs in the positions and velocities of a mechanical system of index 2.
 std::string keptSentence() {
-  std::vector<const Family*> both, positions, neither;
-  for (const auto& family : kFamilies) {
+  std::vector<std::string> both, positions, neither;
+  for (const auto& family : familyCatalogue()) {
     const auto formula = [&](SystemKind kind, char component) { return orderFormula(family.id, kind, component); };
     const auto ode = formula(SystemKind::kOde, 'x');
     const auto u = formula(SystemKind::kMechanical2, 'u'), v = formula(SystemKind::kMechanical2, 'v');
     if (!ode || !u || !v) continue;
-    (u->text != ode->text ? neither : v->text != ode->text ? positions : both).push_back(&family);
+    (u->text != ode->text ? neither : v->text != ode->text ? positions : both).push_back(family.title);
   }
   std::string text = fmt::format(
       "With constraints (mechanical, index 2) positions and velocities keep the order of "
       "ODEs with {}",
-      listText(titlesOf(both)));
-  if (!positions.empty()) text += fmt::format("; only the positions keep it with {}", listText(titlesOf(positions)));
-  if (!neither.empty()) text += fmt::format("; both lose order with {}", listText(titlesOf(neither)));
+      listText(both));
+  if (!positions.empty()) text += fmt::format("; only the positions keep it with {}", listText(positions));
+  if (!neither.empty()) text += fmt::format("; both lose order with {}", listText(neither));
   return text + ".";
 }
 
@@ -216,7 +199,7 @@ Answer orderAnswer(const claims::ResultTables& tables) {
   }
   answer.sentences.push_back(keptSentence());
   for (auto* table : {&answer.shown, &answer.more}) {
-    for (const auto& family : kFamilies) table->titles.emplace_back(family.title);
+    for (const auto& family : familyCatalogue()) table->titles.push_back(family.title);
   }
   for (const auto& system : kSystems) {
     for (const char component : std::string_view(system.components)) appendRow(system, component, checks, answer);
