@@ -1,7 +1,6 @@
 #include "experiments/report/drawn_rows.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,16 +38,6 @@ std::vector<std::string> wordsOf(const std::string& list) {
     words.push_back((*i)[1].str() + (*i)[2].str() + (*i)[3].str());
   }
   return words;
-}
-
-// The assignments NAME='TEXT', NAME="TEXT" and NAME=NUMBER.
-std::map<std::string, std::string> optionsOf(const std::string& assignments) {
-  std::map<std::string, std::string> options;
-  static const std::regex assignment("(\\w+)\\s*=\\s*(?:'([^']*)'|\"([^\"]*)\"|([^;'\"]+))\\s*(?:;|$)");
-  for (std::sregex_iterator i(assignments.begin(), assignments.end(), assignment), end; i != end; ++i) {
-    options[(*i)[1]] = (*i)[2].str() + (*i)[3].str() + (*i)[4].str();
-  }
-  return options;
 }
 
 bool isAbsent(std::string_view cell) { return cell.empty() || cell == "nan"; }
@@ -229,12 +218,6 @@ Thinned thinnedFor(const std::string& script, const std::string& style,
   return {std::move(kept), std::move(same), std::move(near), at};
 }
 
-std::filesystem::path temporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "irk_drawn_XXXXXX").string();
-  if (!mkdtemp(name.data())) throw Failure(fmt::format("cannot make the folder {}", name));
-  return name;
-}
-
 void linkOthers(const std::filesystem::path& from, const std::filesystem::path& to) {
   for (const auto& entry : std::filesystem::directory_iterator(from)) {
     const auto name = entry.path().filename();
@@ -244,9 +227,17 @@ void linkOthers(const std::filesystem::path& from, const std::filesystem::path& 
 
 }  // namespace
 
-DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results)
-    : folder_(temporaryFolder()) {
-  linkOthers(results, folder_);
+std::map<std::string, std::string> optionsOf(const std::string& assignments) {
+  std::map<std::string, std::string> options;
+  static const std::regex assignment("(\\w+)\\s*=\\s*(?:'([^']*)'|\"([^\"]*)\"|([^;'\"]+))\\s*(?:;|$)");
+  for (std::sregex_iterator i(assignments.begin(), assignments.end(), assignment), end; i != end; ++i) {
+    options[(*i)[1]] = (*i)[2].str() + (*i)[3].str() + (*i)[4].str();
+  }
+  return options;
+}
+
+DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results) {
+  linkOthers(results, folder());
   std::string script = readInputFile(home / "plots" / figure.script);
   const std::string style = readInputFile(home / "plots" / "style.gp");
   const auto options = optionsOf(figure.assignments);
@@ -254,7 +245,7 @@ DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, co
   const auto variant = options.find("variant");
   if (variant != options.end()) script += readInputFile(home / "plots" / "work_by.gp");
   std::ifstream in(results / "runs.csv", std::ios::binary);
-  std::ofstream out(folder_ / "runs.csv", std::ios::binary);
+  std::ofstream out(folder() / "runs.csv", std::ios::binary);
   std::string line;
   while (std::getline(in, line) && line.starts_with('#')) out << line << '\n';
   CellViews cells;
@@ -270,12 +261,7 @@ DrawnRows::DrawnRows(const Figure& figure, const std::filesystem::path& home, co
   }
   rows.write(out);
   rows_ = rows.size() - 1;
-  if (!out.flush()) throw Failure(fmt::format("cannot write into {}: is the disk full?", folder_.string()));
-}
-
-DrawnRows::~DrawnRows() {
-  std::error_code none;
-  std::filesystem::remove_all(folder_, none);
+  if (!out.flush()) throw Failure(fmt::format("cannot write into {}: is the disk full?", folder().string()));
 }
 
 std::unique_ptr<DrawnRows> drawnRows(const Figure& figure, const ReportOptions& options) {

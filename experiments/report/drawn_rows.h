@@ -3,12 +3,17 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
+#include "experiments/base/folders.h"
 #include "experiments/report/figure_list.h"
 
 namespace irk {
+
+/// The options that the assignments NAME='TEXT', NAME="TEXT" and NAME=NUMBER of a figure give, by their names.
+std::map<std::string, std::string> optionsOf(const std::string& assignments);
 
 /// A folder of temporary files; the destructor removes it.
 class DrawnRows {
@@ -19,11 +24,8 @@ class DrawnRows {
   /// with the same outcome, lies within a small part of a decade in these columns; the part grows until kMostRows are
   /// left. Throws Failure, Misuse.
   DrawnRows(const Figure& figure, const std::filesystem::path& home, const std::filesystem::path& results);
-  ~DrawnRows();
-  DrawnRows(const DrawnRows&) = delete;
-  DrawnRows& operator=(const DrawnRows&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   std::size_t rows() const { return rows_; }
 
   /// Smaller tables are read by gnuplot as they are.
@@ -31,7 +33,7 @@ class DrawnRows {
   static constexpr std::size_t kMostRows = 20'000;
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
   std::size_t rows_ = 0;
 };
 

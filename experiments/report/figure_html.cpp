@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "experiments/base/html.h"
+#include "experiments/report/drawn_rows.h"
 #include "experiments/report/scripts.h"
 
 namespace irk {
@@ -31,22 +32,13 @@ std::pair<double, double> sizeOf(const std::filesystem::path& svg) {
   return {after("width=\""), after("height=\"")};
 }
 
-// The value of `file_name='...'`; empty without it.
-std::string fileNameOf(const std::string& assignments) {
-  constexpr std::string_view kKey = "file_name='";
-  const auto at = assignments.find(kKey);
-  if (at == assignments.npos) return {};
-  const auto from = at + kKey.size();
-  return assignments.substr(from, assignments.find('\'', from) - from);
-}
-
 // The existing files that the figure is drawn from: the tables that its script reads, the file that it names, or the
 // solutions of its scenes and cases.
 std::vector<std::string> tablesOf(const Figure& figure, const ReportOptions& options) {
   const auto folder = options.results / figure.study;
   std::vector<std::string> names =
       readScript(options.home, std::filesystem::path(figure.script).replace_extension()).tables;
-  if (const auto file = fileNameOf(figure.assignments); !file.empty()) {
+  if (const std::string file = optionsOf(figure.assignments)["file_name"]; !file.empty()) {
     names = {file + ".csv"};
   } else if (names.empty()) {
     std::string words = figure.assignments;
