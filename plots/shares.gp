@@ -9,9 +9,9 @@ if (!exists("solvers")) solvers = 'coupled_dense schur'
 if (!exists("methods")) methods = 'radau_iia_3 radau_iia_5 radau_iia_10'
 if (!exists("n_least")) n_least = 0
 file = data.'/phases.csv'
-parts = "residual jacobian factorization solve update step start"
-part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves' 'rest of iterations' 'rest of steps' 'start'"
-part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B 0x8FBF9F 0x4C8C6B 0xBBBBBB"
+parts = "residual jacobian factorization solve filter update step start"
+part_titles = "'residuals' 'Jacobians' 'factorizations' 'solves' 'filter of errors' 'rest of iterations' 'rest of steps' 'start'"
+part_colours = "0x9CCFE7 0x0072B2 0xD55E00 0xF2B78B 0xCC79A7 0x8FBF9F 0x4C8C6B 0xBBBBBB"
 row(d) = ofScene(0) && is("derivatives", derivatives) && column("n") >= n_least
 undefine N_*
 stats file using (row(0) ? (collect(sprintf("%d", column("n"))), 1) : 0) name "N" nooutput
@@ -25,7 +25,8 @@ methods = kept
 columns = words(methods); lines = words(solvers)
 place(d) = sum [k = 1 : words(sizes)] (int(word(sizes, k)) == column("n") ? k : 0)
 at(solver, method) = row(0) && is("solver", solver) && is("method", method)
-share(k) = column('share_'.word(parts, k))
+shareOf(part) = column('share_'.part)
+share(k) = word(parts, k) eq 'filter' ? shareOf('filter_factorization') + shareOf('filter_solve') : shareOf(word(parts, k))
 below(k) = k == 1 ? 0 : sum [j = 1 : k - 1] share(j)
 size_tics = "set xtics ("; do for [k = 1 : words(sizes)] {
   size_tics = size_tics.sprintf("%s'%s' %d", k == 1 ? '' : ', ', word(sizes, k), k) }

@@ -116,7 +116,7 @@ Point<Real> EmbeddedEstimate<Real>::pointAt(const Real& t, const Vec<Real>& u, c
 template <class Real>
 Outcome EmbeddedEstimate<Real>::solve(const Real& h) {
   if (stages_.solveReal(h, mu_, e_.data())) return Outcome::kSuccess;
-  if (!own_) own_.emplace(stages_.shared(), kind_, filterSetup(system_, mu_), counters_);
+  if (!own_) own_.emplace(stages_.shared(), kind_, filterSetup(system_, mu_), counters_, SolverOf::kFilter);
   const Outcome outcome = own_->prepare(h);
   if (outcome == Outcome::kSuccess) own_->solve(e_);
   return outcome;

@@ -52,7 +52,7 @@ class TableauWeights final : public StepAttempt<Real> {
         mu_(filterWeight(scheme)),
         stepper_(setup.system, scheme, setup.options, setup.jacobian, setup.norm, setup.counters),
         own_(setup.jacobian, setup.options.solver,
-             {Mat<Real>::Constant(1, 1, mu_), nullptr, setup.system.rowPowers(), sizes}, setup.counters),
+             {Mat<Real>::Constant(1, 1, mu_), nullptr, setup.system.rowPowers(), sizes}, setup.counters, SolverOf::kFilter),
         once_(scheme.tableau.b_hat - scheme.b),
         twice_(scheme.A_transposed * once_),
         scales_(sizes.n()),

@@ -77,8 +77,8 @@ const std::shared_ptr<const SparseAnalysis>& SharedJacobian<Real>::analysis(
 
 template <class Real>
 NewtonMatrix<Real>::NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup,
-                                 Counters& counters)
-    : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters) {
+                                 Counters& counters, SolverOf of)
+    : shared_(shared), kind_(kind), setup_(std::move(setup)), counters_(counters), of_(of) {
   setup_.form = makeBlockForm(kind, setup_.A);
   if (shared_.differentiator().pattern()) adopt(shared_.differentiator().pattern());
 }
@@ -87,7 +87,7 @@ template <class Real>
 void NewtonMatrix<Real>::adopt(const std::shared_ptr<const Pattern>& pattern) {
   setup_.pattern = pattern;
   setup_.analysis = shared_.analysis(setup_.pattern);
-  solver_ = std::make_unique<CountedStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_);
+  solver_ = std::make_unique<CountedStageSolver<Real>>(makeStageSolver(kind_, setup_), counters_, of_);
 }
 
 template <class Real>

@@ -64,7 +64,8 @@ template <class Real>
 class NewtonMatrix {
  public:
   /// The setup has no pattern. Throws Misuse for `eigen` with a defective A.
-  NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup, Counters& counters);
+  NewtonMatrix(SharedJacobian<Real>& shared, StageSolverKind kind, StageSolverSetup<Real> setup, Counters& counters,
+               SolverOf of = SolverOf::kStages);
 
   /// Factorizes for step h with the shared Jacobian, unless these factors exist.
   [[nodiscard]] Outcome prepare(const Real& h);
@@ -84,6 +85,7 @@ class NewtonMatrix {
   StageSolverKind kind_;
   StageSolverSetup<Real> setup_;
   Counters& counters_;
+  SolverOf of_;
   std::unique_ptr<CountedStageSolver<Real>> solver_;
   int version_ = 0;
   Real h_{};

@@ -86,29 +86,33 @@ std::shared_ptr<const BlockForm<Real>> makeBlockForm(StageSolverKind kind, const
 /// What the solver of the options stores: the coupled ones have a storage of their own.
 Storage storageOf(const IntegratorOptions& options);
 
+/// What a solver is for: the stages' Newton matrix, or the filter of an error estimate (Counters::filter_solves).
+enum class SolverOf { kStages, kFilter };
+
 /// Counts the factorizations and solves of a solver; see StageSolver.
 template <class Real>
 class CountedStageSolver {
  public:
-  CountedStageSolver(std::unique_ptr<StageSolver<Real>> solver, Counters& counters)
-      : solver_(std::move(solver)), counters_(counters) {}
+  CountedStageSolver(std::unique_ptr<StageSolver<Real>> solver, Counters& counters, SolverOf of = SolverOf::kStages)
+      : solver_(std::move(solver)), counters_(counters), of_(of) {}
   [[nodiscard]] Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) {
-    ++counters_.factorizations;
+    ++(of_ == SolverOf::kStages ? counters_.factorizations : counters_.filter_factorizations);
     return solver_->factorize(at, h);
   }
   void solve(Eigen::Ref<Mat<Real>> rhs) {
-    ++counters_.solves;
+    ++(of_ == SolverOf::kStages ? counters_.solves : counters_.filter_solves);
     solver_->solve(rhs);
   }
   [[nodiscard]] bool solveReal(const Real& mu, Real* x) {
     const bool solved = solver_->solveReal(mu, x);
-    counters_.solves += solved;
+    counters_.filter_solves += solved;
     return solved;
   }
 
  private:
   std::unique_ptr<StageSolver<Real>> solver_;
   Counters& counters_;
+  SolverOf of_;
 };
 
 /// Whether any row is multiplied by a power of h.

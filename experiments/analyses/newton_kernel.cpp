@@ -39,6 +39,11 @@ bool doublesSteps(ErrorEstimate estimate) {
   return estimate != ErrorEstimate::kEmbedded && estimate != ErrorEstimate::kNone;
 }
 
+// A for one stage whose time is that of the filter, whatever the filter's mu is.
+Mat<double> filterMatrix(const Scheme<double>& scheme) {
+  return Mat<double>::Constant(1, 1, 1 / static_cast<double>(scheme.s));
+}
+
 // Steps keep their first Jacobian and its factors, whose time would otherwise hide the rest of a step.
 IntegratorOptions withoutNewJacobians(IntegratorOptions options) {
   options.newton.keep_jacobian_below = kAlways;
@@ -64,6 +69,7 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       free_equations_(*free_, scheme_, spec.options.summation, 1),
       kind_(spec.options.solver),
       setup_{scheme_.implicitA(), nullptr, system_->rowPowers(), system_->sizes(), spec.options.threads},
+      filter_setup_{filterMatrix(scheme_), nullptr, system_->rowPowers(), system_->sizes()},
       norm_(*system_, spec.options.tolerances, setup.scale),
       controller_(makeController(spec.options.step, scheme_.tableau.order)),
       doubles_(doublesSteps(spec.options.step.estimate)),
@@ -72,6 +78,7 @@ NewtonKernel::NewtonKernel(const Setup<double>& setup, const RunSpec& spec, doub
       row_weights_(system_->sizes().n()),
       t_(scheme_.s) {
   setup_.form = makeBlockForm(kind_, setup_.A);
+  filter_setup_.form = makeBlockForm(kind_, filter_setup_.A);
   countResiduals(spec);
   jacobian();
   makeSolver();
@@ -82,9 +89,11 @@ void NewtonKernel::makeSolver() {
   const auto& pattern = at_.front().pattern;
   if (!pattern->full) {
     setup_.analysis = std::make_shared<const SparseAnalysis>(pattern->column_start, pattern->row);
+    filter_setup_.analysis = setup_.analysis;
   }
-  setup_.pattern = pattern;
+  setup_.pattern = filter_setup_.pattern = pattern;
   solver_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, setup_), counters_);
+  filter_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, filter_setup_), counters_);
   rhs_ = ones_ = Mat<double>::Ones(system_->sizes().n(), scheme_.implicitStages());
 }
 
@@ -157,6 +166,15 @@ void NewtonKernel::iteration() {
 void NewtonKernel::solve() {
   rhs_ = ones_;
   solver_->solve(rhs_);
+}
+
+void NewtonKernel::factorizeFilter() {
+  if (filter_->factorize(at_, h_) != Outcome::kSuccess) throw Misuse("the filter cannot be factorized");
+}
+
+void NewtonKernel::solveFilter() {
+  one_rhs_ = ones_.leftCols(1);
+  filter_->solve(one_rhs_);
 }
 
 void NewtonKernel::update() {

@@ -39,6 +39,9 @@ class NewtonKernel {
   /// the one before. It takes longer than the sum of its parts timed alone, because there the processor begins a call
   /// before the last one has ended.
   void iteration();
+  /// One factorization of the filter of error estimates, a system of n unknowns, and one solution with it.
+  void factorizeFilter();
+  void solveFilter();
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment and its norm. The few operations of
   /// Newton's test are left out: they are part of `attempts`.
   void update();
@@ -76,8 +79,8 @@ class NewtonKernel {
   IntegratorOptions options_;
   StageEquations<double> equations_, free_equations_;
   StageSolverKind kind_;
-  StageSolverSetup<double> setup_;
-  std::unique_ptr<CountedStageSolver<double>> solver_;
+  StageSolverSetup<double> setup_, filter_setup_;
+  std::unique_ptr<CountedStageSolver<double>> solver_, filter_;
   ErrorNorm<double> norm_;
   std::unique_ptr<StepController> controller_;
   bool doubles_;  // whether the estimate is by step doubling
@@ -87,7 +90,7 @@ class NewtonKernel {
   Vec<double> row_weights_, t_;
   Mat<double> U_, V_, X_;        // at all stages
   volatile double decided_ = 0;  // keeps the compiler from removing unused results
-  Mat<double> ones_, rhs_, W_, W0_, R_;
+  Mat<double> ones_, rhs_, one_rhs_, W_, W0_, R_;
   std::int64_t residuals_per_jacobian_ = 0, residuals_of_first_ = 0;
 };
 

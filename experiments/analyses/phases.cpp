@@ -36,8 +36,9 @@ constexpr int kRounds = 5;
 constexpr double kMaxSeconds = 3;
 constexpr double kMinCovered = 0.9, kMaxCovered = 1.1;
 
-constexpr std::array<std::string_view, 7> kParts = {"residual", "jacobian", "factorization", "solve",
-                                                    "update",   "step",     "start"};
+constexpr std::array<std::string_view, 9> kParts = {
+    "residual",     "jacobian", "factorization", "solve", "filter_factorization",
+    "filter_solve", "update",   "step",          "start"};
 using Parts = std::array<double, kParts.size()>;
 
 bool covers(double covered) { return covered >= kMinCovered && covered <= kMaxCovered; }
@@ -71,7 +72,7 @@ class PhaseMeasurement {
     // Timed alone, a call begins before the last one has ended; in an iteration it waits for the part before it. The
     // parts of an iteration are therefore scaled to the time of an iteration.
     Parts parts = each_;
-    auto& [residual, jacobian, factorization, solve, update, step, start] = parts;
+    auto& [residual, jacobian, factorization, solve, filter_factorization, filter_solve, update, step, start] = parts;
     const double alone = static_cast<double>(kernel_.stages()) * residual + solve + update;
     const double stretch = std::max(iteration_s_ / alone, 1.0);
     for (double* part : {&residual, &solve, &update}) *part *= stretch;
@@ -133,11 +134,13 @@ class PhaseMeasurement {
     take(stages, [this] { kernel_.residuals(); });
     take(begin, [this] { start_->integrate(); });
     take(first, [this] { kernel_.firstMatrices(); });
-    auto& [residual, jacobian, factorization, solve, update, step, start] = each_;
+    auto& [residual, jacobian, factorization, solve, filter_factorization, filter_solve, update, step, start] = each_;
     residual = std::min(residual, stages / static_cast<double>(kernel_.stages()));
     take(jacobian, [this] { kernel_.jacobian(); });
     take(factorization, [this] { kernel_.factorize(); });
     take(solve, [this] { kernel_.solve(); });
+    take(filter_factorization, [this] { kernel_.factorizeFilter(); });
+    take(filter_solve, [this] { kernel_.solveFilter(); });
     take(update, [this] { kernel_.update(); });
     take(iteration_s_, [this] { kernel_.iteration(); });
     take(attempts_s_, [this] { attempts_ = kernel_.attempts(); });
@@ -150,11 +153,13 @@ class PhaseMeasurement {
 
   // The time of the counted operations of a step. In a Jacobian by differences, the residuals are part of it.
   double partsOf(const Counters& step, const Parts& parts) const {
-    const auto& [residual, jacobian, factorization, solve, update, rest, start] = parts;
+    const auto& [residual, jacobian, factorization, solve, filter_factorization, filter_solve, update, rest, start] =
+        parts;
     const std::int64_t residuals = step.residuals - step.jacobians * kernel_.residualsPerJacobian();
     const auto time = [](std::int64_t count, double seconds) { return static_cast<double>(count) * seconds; };
     return time(residuals, residual) + time(step.jacobians, jacobian) + time(step.factorizations, factorization) +
-           time(step.solves, solve) + time(step.newton_iterations, update);
+           time(step.solves, solve) + time(step.filter_factorizations, filter_factorization) +
+           time(step.filter_solves, filter_solve) + time(step.newton_iterations, update);
   }
 
   // How often the run used each part. Residuals inside difference quotients belong to the Jacobian; those of
@@ -169,6 +174,8 @@ class PhaseMeasurement {
             number(jacobians),
             number(run.factorizations),
             number(run.solves),
+            number(run.filter_factorizations),
+            number(run.filter_solves),
             number(run.newton_iterations),
             number(run.steps_accepted + run.steps_rejected_error + run.steps_rejected_newton),
             1};

@@ -125,7 +125,9 @@ std::string solveJson(const RunRecord& record, int indent) {
                       {"jacobians", c.jacobians},
                       {"factorizations", c.factorizations},
                       {"mass_factorizations", c.mass_factorizations},
+                      {"filter_factorizations", c.filter_factorizations},
                       {"solves", c.solves},
+                      {"filter_solves", c.filter_solves},
                       {"newton_iterations", c.newton_iterations},
                       {"newton_restarts", c.newton_restarts}};
   addSwitches(record, json);

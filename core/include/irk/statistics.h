@@ -14,7 +14,11 @@ struct Counters {
   /// of D0 = dr/d(a, k, z) alone, which holds the mass matrix, between the start and the end: by first-order forms,
   /// projections, restarts and checks of a step. The consistent start and the multipliers of the end are left out.
   std::int64_t mass_factorizations = 0;
+  /// of D0 + h mu D1 + (h mu)^2 D2, the one system of n unknowns that filters an error estimate and the defect, where
+  /// the factors of the Newton matrix do not contain it
+  std::int64_t filter_factorizations = 0;
   std::int64_t solves = 0;             ///< with a factorized Newton matrix (all its blocks together count as one)
+  std::int64_t filter_solves = 0;      ///< with the filter's system of n unknowns, wherever its factors are
   std::int64_t newton_iterations = 0;  ///< of all attempted steps
   /// iterations begun anew from the start values, with a new Jacobian or full Newton (paper)
   std::int64_t newton_restarts = 0;
@@ -34,7 +38,9 @@ struct Counters {
     f("jacobians", jacobians);
     f("factorizations", factorizations);
     f("mass_factorizations", mass_factorizations);
+    f("filter_factorizations", filter_factorizations);
     f("solves", solves);
+    f("filter_solves", filter_solves);
     f("newton_iterations", newton_iterations);
     f("newton_restarts", newton_restarts);
     f("steps_accepted", steps_accepted);

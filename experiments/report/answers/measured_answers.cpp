@@ -159,7 +159,8 @@ std::string familiesFailSentence(const Table& runs) {
 }
 
 std::string phasesSentence(const Table& phases) {
-  constexpr std::string_view kParts[] = {"residual", "jacobian", "factorization", "solve", "update", "step"};
+  constexpr std::string_view kParts[] = {"residual",     "jacobian", "factorization", "solve", "filter_factorization",
+                                         "filter_solve", "update",   "step"};
   constexpr double kFewest = 30;  // unknowns; with fewer the parts are as short as a call of the clock
   // By scene and solver, then by the number of unknowns, the shares of each part in the time of these parts.
   std::map<std::string, std::map<double, std::map<std::string_view, std::vector<double>>>> shares;

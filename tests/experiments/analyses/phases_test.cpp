@@ -14,8 +14,9 @@
 namespace irk {
 namespace {
 
-constexpr const char* kShares[] = {"share_residual", "share_jacobian", "share_factorization", "share_solve",
-                                   "share_update",   "share_step",     "share_start"};
+constexpr const char* kShares[] = {
+    "share_residual",     "share_jacobian", "share_factorization", "share_solve", "share_filter_factorization",
+    "share_filter_solve", "share_update",   "share_step",          "share_start"};
 
 void expectShares(const Table& table) {
   ASSERT_EQ(table.rows.size(), 5u);

@@ -53,7 +53,8 @@ TEST(Cli, SolveJsonHasExactlyTheKeys) {
   EXPECT_EQ(keysOf(json["steps"]), (std::set<std::string>{"accepted", "rejected_error", "rejected_newton"}));
   EXPECT_EQ(keysOf(json["counters"]),
             (std::set<std::string>{"residuals", "dual_residuals", "jacobians", "factorizations", "mass_factorizations",
-                                   "solves", "newton_iterations", "newton_restarts"}));
+                                   "filter_factorizations", "solves", "filter_solves", "newton_iterations",
+                                   "newton_restarts"}));
   EXPECT_EQ(json["outcome"], "success");
   EXPECT_NEAR(json["u"][0].get<double>(), 14.127892217751, 1e-7);
   EXPECT_NEAR(json["v"][0].get<double>(), 20.537482851413, 1e-7);

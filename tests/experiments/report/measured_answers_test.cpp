@@ -69,19 +69,28 @@ TEST(StudySentences, FailuresNameTheFamiliesWithoutACorrectDigit) {
 }
 
 TEST(StudySentences, PhasesNameTheLargestPartOfTheSteps) {
-  const std::vector<std::string> columns{
-      "scene",       "solver",       "n",          "share_residual", "share_jacobian", "share_factorization",
-      "share_solve", "share_update", "share_step", "share_start"};
+  const std::vector<std::string> columns{"scene",
+                                         "solver",
+                                         "n",
+                                         "share_residual",
+                                         "share_jacobian",
+                                         "share_factorization",
+                                         "share_solve",
+                                         "share_update",
+                                         "share_step",
+                                         "share_start",
+                                         "share_filter_factorization",
+                                         "share_filter_solve"};
   const Table phases{{},
                      columns,
-                     {{"beam", "coupled_dense", "200", "0.1", "0", "0.4", "0", "0", "0", "0.5"},
-                      {"beam", "coupled_dense", "30", "0.5", "0", "0.2", "0", "0", "0", "0.3"},
-                      {"beam", "coupled_dense", "30", "0.3", "0", "0.2", "0", "0", "0", "0.5"},
-                      {"beam", "coupled_dense", "3", "0.1", "0", "0.9", "0", "0", "0", "0"},
-                      {"rod", "schur", "40", "0.1", "0", "0.2", "0.6", "0", "0", "0.1"}}};
+                     {{"beam", "coupled_dense", "200", "0.1", "0", "0.4", "0", "0", "0", "0.5", "0", "0"},
+                      {"beam", "coupled_dense", "30", "0.5", "0", "0.2", "0", "0", "0", "0.3", "0", "0"},
+                      {"beam", "coupled_dense", "30", "0.3", "0", "0.2", "0", "0", "0", "0.5", "0", "0"},
+                      {"beam", "coupled_dense", "3", "0.1", "0", "0.9", "0", "0", "0", "0", "0", "0"},
+                      {"rod", "schur", "40", "0.1", "0", "0", "0.2", "0", "0", "0.1", "0", "0.6"}}};
   EXPECT_EQ(phasesSentence(phases),
             "The part of the steps that takes most time: beam, `coupled_dense`: residual (66 %) at n = 30, "
-            "factorization (80 %) at n = 200; rod, `schur`: solve (67 %) at n = 40.");
+            "factorization (80 %) at n = 200; rod, `schur`: filter_solve (67 %) at n = 40.");
   EXPECT_EQ(phasesSentence({{}, columns, {}}), "");
 }
 

@@ -35,7 +35,9 @@ RunRecord distinct() {
   c.jacobians = 103;
   c.factorizations = 104;
   c.mass_factorizations = 115;
+  c.filter_factorizations = 116;
   c.solves = 105;
+  c.filter_solves = 117;
   c.newton_iterations = 106;
   c.newton_restarts = 107;
   c.steps_accepted = 108;
@@ -88,7 +90,9 @@ TEST(RunRow, HoldsEveryNumberUnderItsName) {
                                                  {"jacobians", 103},
                                                  {"factorizations", 104},
                                                  {"mass_factorizations", 115},
+                                                 {"filter_factorizations", 116},
                                                  {"solves", 105},
+                                                 {"filter_solves", 117},
                                                  {"newton_iterations", 106},
                                                  {"newton_restarts", 107},
                                                  {"steps_accepted", 108},
