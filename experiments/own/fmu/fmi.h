@@ -64,7 +64,6 @@ typedef fmiStatus fmiEnterContinuousTimeModeTYPE(fmiInstance);
 typedef fmiStatus fmiSetTimeTYPE(fmiInstance, double);
 typedef fmiStatus fmiSetContinuousStatesTYPE(fmiInstance, const double*, size_t);
 typedef fmiStatus fmiGetContinuousStatesTYPE(fmiInstance, double*, size_t);
-typedef fmiStatus fmiGetNominalsOfContinuousStatesTYPE(fmiInstance, double*, size_t);
 typedef fmiStatus fmiGetEventIndicatorsTYPE(fmiInstance, double*, size_t);
 typedef fmiStatus fmiGetDerivativesTYPE(fmiInstance, double*, size_t); /* fmi3GetContinuousStateDerivatives */
 

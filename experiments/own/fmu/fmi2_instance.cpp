@@ -2,14 +2,14 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "experiments/own/fmu/instance_base.h"
+#include "experiments/own/fmu/instance.h"
 
 namespace irk::own {
 namespace {
 
-class Fmi2Instance final : public CommonInstance {
+class Fmi2Instance final : public FmuInstance {
  public:
-  explicit Fmi2Instance(const FmuLibrary& fmu) : CommonInstance(fmu, "fmi2", "GetDerivatives") {
+  explicit Fmi2Instance(const FmuLibrary& fmu) : FmuInstance(fmu, "fmi2", "GetDerivatives") {
     callbacks_ = {.logger = &Fmi2Instance::log,
                   .allocateMemory = [](size_t count, size_t size) { return std::calloc(count, size); },
                   .freeMemory = [](void* memory) { std::free(memory); },

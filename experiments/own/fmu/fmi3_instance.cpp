@@ -1,13 +1,13 @@
 #include <algorithm>
 
-#include "experiments/own/fmu/instance_base.h"
+#include "experiments/own/fmu/instance.h"
 
 namespace irk::own {
 namespace {
 
-class Fmi3Instance final : public CommonInstance {
+class Fmi3Instance final : public FmuInstance {
  public:
-  explicit Fmi3Instance(const FmuLibrary& fmu) : CommonInstance(fmu, "fmi3", "GetContinuousStateDerivatives") {
+  explicit Fmi3Instance(const FmuLibrary& fmu) : FmuInstance(fmu, "fmi3", "GetContinuousStateDerivatives") {
     const std::string resources = fmu.resources + "/";
     const auto log = [](void* self, fmiStatus status, const char*, const char* text) {
       static_cast<Fmi3Instance*>(self)->keepMessage(status, text);
