@@ -120,10 +120,10 @@ bool FirstOrderForm<Real>::solve(const Real& t, const Real* y, const Real* d) co
   std::copy_n(y + 2 * nu, inner_sizes_.nx, at_.x.begin());
   std::copy_n(d, inner_sizes_.discrete, at_.d.begin());
   const bool varies = rates_ == Rates::kLinear || rates_ == Rates::kNonlinear;
-  if (factors_ == MassFactors::kEachStep && varies && !std::exchange(renew_, false) && refine()) {
+  if (factors_ == MassFactors::kEachStep && varies && !std::exchange(renew_, false) && iterate(Factors::kKept)) {
     solved_ = true;
   } else {
-    solved_ = rates_ == Rates::kNonlinear ? solveNewton() : solveLinear();
+    solved_ = rates_ == Rates::kNonlinear ? iterate(Factors::kRenewed) : solveLinear();
     renew_ = !solved_;
   }
   return solved_;
@@ -144,42 +144,27 @@ bool FirstOrderForm<Real>::solveLinear() const {
   return allFinite(at_.w);
 }
 
-// With the factors of another point: w -= M^-1 r from the w of the last point, until the change is as small as
-// round-off. The residual is exact, so w is as well.
+// From the w of the last point, until the change is as small as round-off: by Newton's method, or by w -= M^-1 r with
+// the factors of another point. The residual is exact, so w is as well.
 template <class Real>
-bool FirstOrderForm<Real>::refine() const {
+bool FirstOrderForm<Real>::iterate(Factors factors) const {
   using std::sqrt;
   const Real eps = Eigen::NumTraits<Real>::epsilon();
   Real last = std::numeric_limits<Real>::max();
   for (int i = 0; i < kRateIterations; ++i) {
-    inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
-    divideByMatrix(residual_);
-    at_.w -= residual_;
-    const Real change = residual_.norm(), size = Real(1) + Real(at_.w.norm());
-    const bool stalled = change >= last && change <= Real(sqrt(eps)) * size;
-    if (change <= Real(100) * eps * size || stalled) return allFinite(at_.w);
-    if (!(change < last / 2)) break;
-    last = change;
-  }
-  at_.w = start_w_;
-  return false;
-}
-
-// Newton's method from the w of the last point, until the change is as small as round-off.
-template <class Real>
-bool FirstOrderForm<Real>::solveNewton() const {
-  using std::sqrt;
-  const Real eps = Eigen::NumTraits<Real>::epsilon();
-  Real last = std::numeric_limits<Real>::max();
-  for (int i = 0; i < kRateIterations; ++i) {
-    evaluateMatrix();
-    if (!factorize()) break;
+    if (factors == Factors::kRenewed) {
+      evaluateMatrix();
+      if (!factorize()) break;
+    } else {
+      inner_->evaluate(Level::kAcceleration, pointOf(at_), {residual_.data(), residual_.size()});
+    }
     divideByMatrix(residual_);
     at_.w -= residual_;
     if (!allFinite(at_.w)) break;
     const Real change = residual_.norm(), size = Real(1) + Real(at_.w.norm());
     const bool stalled = change >= last && change <= Real(sqrt(eps)) * size;
     if (change <= Real(100) * eps * size || stalled) return true;
+    if (factors == Factors::kKept && !(change < last / 2)) break;
     last = change;
   }
   at_.w = start_w_;
@@ -271,32 +256,17 @@ void FirstOrderForm<Real>::switching(const Point<Real>& p, VecView<Real> g) cons
 }
 
 template <class Real>
-void FirstOrderForm<Real>::onSwitch(Index i, State<Real>& state) const {
+void FirstOrderForm<Real>::switchBy(const char* name, Change change, Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
-  inner_->onSwitch(i, scene);
-  takeMode("System::onSwitch", scene, state);
+  (*inner_.*change)(i, scene);
+  takeMode(name, scene, state);
 }
 
 template <class Real>
-void FirstOrderForm<Real>::onTime(Index i, State<Real>& state) const {
+void FirstOrderForm<Real>::jumpBy(const char* name, Change change, Index i, State<Real>& state) const {
   State<Real> scene = toScene(state);
-  inner_->onTime(i, scene);
-  takeMode("System::onTime", scene, state);
-}
-
-template <class Real>
-void FirstOrderForm<Real>::jump(Index i, State<Real>& state) const {
-  State<Real> scene = toScene(state);
-  inner_->jump(i, scene);
-  requireState("System::jump", scene, inner_sizes_);
-  state.x << scene.u, scene.v, scene.x;
-}
-
-template <class Real>
-void FirstOrderForm<Real>::jumpAtTime(Index i, State<Real>& state) const {
-  State<Real> scene = toScene(state);
-  inner_->jumpAtTime(i, scene);
-  requireState("System::jumpAtTime", scene, inner_sizes_);
+  (*inner_.*change)(i, scene);
+  requireState(name, scene, inner_sizes_);
   state.x << scene.u, scene.v, scene.x;
 }
 

@@ -37,11 +37,11 @@ class FirstOrderForm final : public System<Real> {
   const std::vector<int>& rowPowers() const override { return row_powers_; }
   const ErrorPowers& errorPowers() const override { return error_powers_; }
   void switching(const Point<Real>& p, VecView<Real> g) const override;
-  void onSwitch(Index i, State<Real>& state) const override;
-  void jump(Index i, State<Real>& state) const override;
+  void onSwitch(Index i, State<Real>& s) const override { switchBy("System::onSwitch", &Base::onSwitch, i, s); }
+  void jump(Index i, State<Real>& s) const override { jumpBy("System::jump", &Base::jump, i, s); }
   std::vector<Real> times() const override { return inner_->times(); }
-  void onTime(Index i, State<Real>& state) const override;
-  void jumpAtTime(Index i, State<Real>& state) const override;
+  void onTime(Index i, State<Real>& s) const override { switchBy("System::onTime", &Base::onTime, i, s); }
+  void jumpAtTime(Index i, State<Real>& s) const override { jumpBy("System::jumpAtTime", &Base::jumpAtTime, i, s); }
   bool completesSteps() const override { return inner_->completesSteps(); }
   bool completeStep(State<Real>& state) const override;
   bool nonNegative(Index i) const override { return inner_->nonNegative(i); }
@@ -66,6 +66,13 @@ class FirstOrderForm final : public System<Real> {
   /// How D0 depends on the point; decides how often it is evaluated. kDiagonal is also constant; kLinear: it depends
   /// on (t, u, v, x), but not on (a, k, z).
   enum class Rates { kDiagonal, kConstant, kLinear, kNonlinear };
+  /// Those with which w is found: of another point, or of each iterate.
+  enum class Factors { kKept, kRenewed };
+
+  using Base = System<Real>;
+  using Change = void (Base::*)(Index, State<Real>&) const;
+  void switchBy(const char* name, Change change, Index i, State<Real>& state) const;
+  void jumpBy(const char* name, Change change, Index i, State<Real>& state) const;
 
   bool classify(const State<Real>& scene) const;  // false: D0 is singular
   void takeMode(const char* function, const State<Real>& scene, State<Real>& state) const;
@@ -75,8 +82,7 @@ class FirstOrderForm final : public System<Real> {
   bool solve(const Real& t, const Real* y, const Real* d) const;
   bool holds(const Real& t, const Real* y, const Real* d) const;
   bool solveLinear() const;
-  bool solveNewton() const;
-  bool refine() const;
+  bool iterate(Factors factors) const;
   bool isSolution(const Vec<Real>& residual) const;
   void forgetPattern() const;
   void evaluateMatrix() const;
