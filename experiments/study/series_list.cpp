@@ -1,6 +1,7 @@
 #include "experiments/study/series_list.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 

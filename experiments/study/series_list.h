@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -31,27 +30,6 @@ class SeriesList {
  public:
   using Make = std::function<Series(std::size_t)>;
 
-  class Iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = Series;
-    using difference_type = std::ptrdiff_t;
-    using pointer = void;
-    using reference = Series;
-    Iterator(const SeriesList* list, std::size_t at) : list_(list), at_(at) {}
-    Series operator*() const { return (*list_)[at_]; }
-    Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    Iterator operator++(int) { return {list_, at_++}; }
-    bool operator==(const Iterator&) const = default;
-
-   private:
-    const SeriesList* list_;
-    std::size_t at_;
-  };
-
   SeriesList() = default;
   SeriesList(std::vector<Series> all);  // NOLINT: all of them, kept
 
@@ -63,8 +41,8 @@ class SeriesList {
   /// 0 <= i < size.
   Series operator[](std::size_t i) const;
   Series front() const { return (*this)[0]; }
-  Iterator begin() const { return {this, 0}; }
-  Iterator end() const { return {this, size_}; }
+  auto begin() const { return iteratorAt(*this, 0); }
+  auto end() const { return iteratorAt(*this, size_); }
 
  private:
   struct Part {

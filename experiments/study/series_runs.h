@@ -1,13 +1,22 @@
 // The runs of a series, generated on demand: large studies keep no runs in memory.
 #pragma once
 
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/iterator/transform_iterator.hpp>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "experiments/runs/run_spec.h"
 
 namespace irk {
+
+/// An iterator of a list that makes its elements on demand, at element i.
+template <class List>
+auto iteratorAt(const List& list, std::size_t i) {
+  return boost::make_transform_iterator(boost::make_counting_iterator(i), std::bind_front(&List::operator[], &list));
+}
 
 /// The option in which the runs of a series differ.
 enum class Swept {
@@ -20,21 +29,6 @@ enum class Swept {
 /// its life.
 class SeriesRuns {
  public:
-  class Iterator {
-   public:
-    Iterator(const SeriesRuns* runs, std::size_t at) : runs_(runs), at_(at) {}
-    RunSpec operator*() const { return (*runs_)[at_]; }
-    Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    bool operator==(const Iterator&) const = default;
-
-   private:
-    const SeriesRuns* runs_;
-    std::size_t at_;
-  };
-
   SeriesRuns(RunSpec base) : base_(std::move(base)) {}  // NOLINT: one run is a series
   SeriesRuns(RunSpec base, Swept swept, std::vector<double> values)
       : base_(std::move(base)), swept_(swept), values_(std::move(values)) {}
@@ -42,8 +36,8 @@ class SeriesRuns {
   std::size_t size() const { return swept_ == Swept::kNothing ? 1 : values_.size(); }
   RunSpec operator[](std::size_t i) const;
   RunSpec front() const { return (*this)[0]; }
-  Iterator begin() const { return {this, 0}; }
-  Iterator end() const { return {this, size()}; }
+  auto begin() const { return iteratorAt(*this, 0); }
+  auto end() const { return iteratorAt(*this, size()); }
 
  private:
   RunSpec base_;
