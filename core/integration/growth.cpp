@@ -17,8 +17,24 @@ constexpr double kDecayed = 36;
 }  // namespace
 
 template <class Real>
-Growth<Real>::Growth(const System<Real>& system, DerivativeSource source)
-    : system_(system), differentiator_(system, source) {}
+Growth<Real>::Growth(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale)
+    : system_(system), differentiator_(system, DerivativeSource::kAutomatic), tolerances_(tolerances), scale_(scale) {}
+
+template <class Real>
+double Growth<Real>::speed(const State<Real>& s) {
+  // Motions around 1 that had decayed moved by up to 70 eps.
+  const double round_off = 100 * static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
+  const Index nu = s.u.size(), nx = s.x.size();
+  tolerance_.resize(2 * nu + nx);
+  tolerance_ << s.u.template cast<double>(), s.v.template cast<double>(), s.x.template cast<double>();
+  round_off_ = round_off * tolerance_.cwiseAbs();
+  for (Index i = 0; i < tolerance_.size(); ++i) {
+    tolerance_[i] = tolerances_.of(i < scale_.size() ? scale_[i] : 1, tolerance_[i]);
+  }
+  rates_.resize(tolerance_.size());
+  rates_ << s.v.template cast<double>(), s.w.head(nu + nx).template cast<double>();
+  return rates_.cwiseAbs().cwiseQuotient(tolerance_).maxCoeff();
+}
 
 // Sets J_; false if it is not known.
 template <class Real>
@@ -43,13 +59,13 @@ bool Growth<Real>::linearize(const State<Real>& state) {
     equilibration.scaleBack(column);
     J_.col(j).tail(rates) = -column.head(rates);
   }
-  round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() * J_.norm();
+  lambda_round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() * J_.norm();
   return J_.allFinite();
 }
 
 template <class Real>
 bool Growth<Real>::grows(const std::complex<double>& lambda, double time) const {
-  return lambda.real() * time > 1 && lambda.real() > round_off_;
+  return lambda.real() * time > 1 && lambda.real() > lambda_round_off_;
 }
 
 template <class Real>
@@ -65,8 +81,7 @@ double Growth<Real>::rate(const State<Real>& state, double time) {
 }
 
 template <class Real>
-auto Growth<Real>::motions(const State<Real>& state, double time, const Vec<double>& tolerance,
-                           const Vec<double>& round_off, double since) -> std::optional<Motions> {
+auto Growth<Real>::motions(const State<Real>& state, double time, double since) -> std::optional<Motions> {
   const Eigen::EigenSolver<Mat<double>> solver(J_);
   if (solver.info() != Eigen::Success) return std::nullopt;
   Vec<double> f(J_.rows());
@@ -74,7 +89,7 @@ auto Growth<Real>::motions(const State<Real>& state, double time, const Vec<doub
   const auto& q = solver.eigenvectors();
   const Eigen::MatrixXcd inverse = q.partialPivLu().inverse();
   const Eigen::VectorXcd c = inverse * f;
-  const Vec<double> noise = inverse.cwiseAbs() * round_off;
+  const Vec<double> noise = inverse.cwiseAbs() * round_off_;
   Motions of;
   bool any_further = false, any_vanished = false;
   for (Index i = 0; i < f.size(); ++i) {
@@ -83,7 +98,7 @@ auto Growth<Real>::motions(const State<Real>& state, double time, const Vec<doub
     const bool lives = !(distance <= noise[i]);
     const bool is_driven = -lambda.real() * since > kDecayed;
     if (lives && !is_driven) of.living = std::max(of.living, std::abs(lambda));
-    const bool rests = (distance * q.col(i).cwiseAbs().array() < tolerance.array()).all();
+    const bool rests = (distance * q.col(i).cwiseAbs().array() < tolerance_.array()).all();
     if (!grows(lambda, time) || !rests) continue;
     of.resting = std::max(of.resting, std::abs(lambda));
     of.faster = std::max(of.faster, lambda.real());

@@ -1,4 +1,4 @@
-// How fast errors grow at a point of a motion.
+// Judges a motion at one of its states: how fast it is in tolerances, what grows in it, and what is left of it.
 #pragma once
 
 #include <complex>
@@ -6,6 +6,7 @@
 
 #include "core/derivatives/differentiator.h"
 #include "core/derivatives/rate_lu.h"
+#include "irk/options.h"
 
 namespace irk {
 
@@ -19,9 +20,14 @@ class Growth {
   /// beams with 26 to 80 components they add at most 12 %.
   static constexpr Index kMost = 50;
 
-  /// Keeps a reference to the system.
-  Growth(const System<Real>& system, DerivativeSource source);
+  /// Keeps a reference to the system. `tolerances` and `scale` are those of the result that is measured.
+  Growth(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale);
 
+  /// Takes the tolerances and the round-off of (u, v, x) at `state` for all calls until the next one. Returns the
+  /// largest component of (u, v, x)' in tolerances.
+  double speed(const State<Real>& state);
+  /// Of u, v and x.
+  Index components() const { return tolerance_.size(); }
   /// The largest |lambda| among the eigenvalues of J at `state` that grow by more than a factor e within `time`,
   /// Re lambda time > 1. 0 if there are none, if (u, v, x) do not determine (a, k, z), and if there are more than
   /// kMost components: eigenvalues of N components cost about 10 N^3 operations, with their vectors 25 N^3 (Golub & Van
@@ -36,11 +42,9 @@ class Growth {
     double living = 0;      ///< the largest |lambda| of those that are further away than round-off
     bool vanished = false;  ///< some of those that grow and rest are not further away than round-off, and none is
   };
-  /// For the state of the last call of `rate`. `tolerance` and `round_off` of each component of u, v, x. A motion that
-  /// rests for the time `since` and would have decayed to round-off in it is not a living one: others drive it. Nothing
-  /// if the eigenvectors are not known.
-  std::optional<Motions> motions(const State<Real>& state, double time, const Vec<double>& tolerance,
-                                 const Vec<double>& round_off, double since);
+  /// For the state of the last call of `rate`. A motion that rests for the time `since` and would have decayed to
+  /// round-off in it is not a living one: others drive it. Nothing if the eigenvectors are not known.
+  std::optional<Motions> motions(const State<Real>& state, double time, double since);
 
  private:
   bool linearize(const State<Real>& state);
@@ -50,7 +54,9 @@ class Growth {
   Differentiator<Real> differentiator_;
   Linearization<Real> D_;
   Mat<double> J_;
-  double round_off_ = 0;  // of eigenvalues of J_
+  double lambda_round_off_ = 0;  // of eigenvalues of J_
+  Tolerances tolerances_;
+  Vec<double> scale_, tolerance_, round_off_, rates_;
 };
 
 }  // namespace irk

@@ -8,26 +8,6 @@
 
 namespace irk {
 
-template <class Real>
-StateJudge<Real>::StateJudge(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale)
-    : growth_(system, DerivativeSource::kAutomatic), tolerances_(tolerances), scale_(scale) {}
-
-template <class Real>
-double StateJudge<Real>::speed(const State<Real>& s) {
-  // Motions around 1 that had decayed moved by up to 70 eps.
-  const double round_off = 100 * static_cast<double>(Real(Eigen::NumTraits<Real>::epsilon()));
-  const Index nu = s.u.size(), nx = s.x.size();
-  tolerance_.resize(2 * nu + nx);
-  tolerance_ << s.u.template cast<double>(), s.v.template cast<double>(), s.x.template cast<double>();
-  round_off_ = round_off * tolerance_.cwiseAbs();
-  for (Index i = 0; i < tolerance_.size(); ++i) {
-    tolerance_[i] = tolerances_.of(i < scale_.size() ? scale_[i] : 1, tolerance_[i]);
-  }
-  rates_.resize(tolerance_.size());
-  rates_ << s.v.template cast<double>(), s.w.head(nu + nx).template cast<double>();
-  return rates_.cwiseAbs().cwiseQuotient(tolerance_).maxCoeff();
-}
-
 void LookTimes::begin() {
   rests_ = comes_to_rest_ = false;
   rests_for_ = since_look_ = resolved_ = 0;
@@ -67,7 +47,7 @@ double LookTimes::unseen() const { return std::min(since_look_, rests_for_); }
 template <class Real>
 UnstableRest<Real>::UnstableRest(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale,
                                  const Real& t_start, const Real& t_end)
-    : judge_(system, tolerances, scale),
+    : growth_(system, tolerances, scale),
       times_(static_cast<double>(Real(t_end - t_start))),
       watches_(system.sizes() == system.sceneSizes() &&
                2 * system.sizes().nu + system.sizes().nx <= Growth<Real>::kMost),
@@ -83,10 +63,10 @@ void UnstableRest<Real>::begin() {
 template <class Real>
 void UnstableRest<Real>::look(const StepRecord<Real>& step) {
   if (!watches_ || step.h < 0 || step.state.u.size() + step.state.x.size() == 0) return;
-  times_.step(step.h, judge_.speed(step.state));
+  times_.step(step.h, growth_.speed(step.state));
   if (!times_.rests() && grown_ == 0) vanished_ = false;  // something else moves it
   if (vanished_ && grown_ > 0 && times_.moves(step.h)) left_ = true;
-  if (!times_.due(step.h, judge_.components())) return;
+  if (!times_.due(step.h, growth_.components())) return;
   const double left = static_cast<double>(Real(t_end_ - step.t));
   const int parts = times_.parts();
   const double passed = times_.sinceLook() / parts;
@@ -103,19 +83,19 @@ void UnstableRest<Real>::look(const StepRecord<Real>& step) {
 // Looks at a state in, or at the end of, a step of size h; `left`: until the end, `passed`: since the last look.
 template <class Real>
 void UnstableRest<Real>::judge(const State<Real>& state, double h, double left, double passed) {
-  double growth = judge_.growth(state, left), living = 0;
+  double growth = growth_.rate(state, left), living = 0;
   const bool too_fast = growth * h > 1;
   times_.looked(growth, h);
   if (growth == 0 && times_.staysAtRest(h)) was_stable_ = true;
   if (times_.rests()) {
     if (follows_ == Follows::kGrowthAndDecays) {
-      if (const auto motions = judge_.motions(state, left, times_.restsFor())) {
+      if (const auto motions = growth_.motions(state, left, times_.restsFor())) {
         keepAccount(*motions, passed);
         living = motions->living;
       }
     }
   } else if (growth > 0 && (too_fast || follows())) {  // only what rests beside the motion
-    const auto motions = judge_.motions(state, left, 0);
+    const auto motions = growth_.motions(state, left, 0);
     growth = motions ? motions->resting : 0;
   }
   const bool follows_too_little = follows_ == Follows::kGrowth && was_stable_ && !leaves_decays_;
@@ -158,7 +138,6 @@ bool UnstableRest<Real>::leaveDecays() {
   return true;
 }
 
-IRK_INSTANTIATE_CLASS(StateJudge)
 IRK_INSTANTIATE_CLASS(UnstableRest)
 
 }  // namespace irk

@@ -2,38 +2,12 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 
 #include "core/integration/growth.h"
 #include "irk/monitor.h"
 #include "irk/options.h"
 
 namespace irk {
-
-/// Judges a motion at one of its states: how fast it is in tolerances, what grows in it, and what is left of it.
-template <class Real>
-class StateJudge {
- public:
-  /// Keeps a reference to the system. `tolerances` and `scale` are those of the result that is measured.
-  StateJudge(const System<Real>& system, const Tolerances& tolerances, const Vec<double>& scale);
-
-  /// Takes the tolerances and the round-off of (u, v, x) at `state` for all calls until the next one. Returns the
-  /// largest component of (u, v, x)' in tolerances.
-  double speed(const State<Real>& state);
-  /// Of u, v and x.
-  Index components() const { return tolerance_.size(); }
-  /// The largest |lambda| of what grows by more than a factor e within `time`; 0: nothing does.
-  double growth(const State<Real>& state, double time) { return growth_.rate(state, time); }
-  /// What rests, and what is left of it, at the state of the last call of `growth`. `rests_for`: so long it has rested.
-  std::optional<typename Growth<Real>::Motions> motions(const State<Real>& state, double time, double rests_for) {
-    return growth_.motions(state, time, tolerance_, round_off_, rests_for);
-  }
-
- private:
-  Growth<Real> growth_;
-  Tolerances tolerances_;
-  Vec<double> scale_, tolerance_, round_off_, rates_;
-};
 
 /// Decides when an integration is looked at: eigenvalues of every state would take longer than its steps.
 class LookTimes {
@@ -43,7 +17,7 @@ class LookTimes {
 
   /// An integration begins.
   void begin();
-  /// A step of size h has come to a state of this speed (StateJudge::speed).
+  /// A step of size h has come to a state of this speed (Growth::speed).
   void step(double h, double speed);
   /// Whether nothing moved by a tolerance in the last step.
   bool rests() const { return rests_; }
@@ -117,7 +91,7 @@ class UnstableRest {
   void keepAccount(const typename Growth<Real>::Motions& motions, double passed);
   void limitSteps(double growth, double living);
 
-  StateJudge<Real> judge_;
+  Growth<Real> growth_;
   LookTimes times_;
   bool watches_;
   Real t_end_;

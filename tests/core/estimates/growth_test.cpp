@@ -12,7 +12,7 @@ namespace irk::test {
 namespace {
 
 double growth(const std::shared_ptr<const System<double>>& system, const State<double>& state, double time) {
-  return Growth<double>(*system, DerivativeSource::kAutomatic).rate(state, time);
+  return Growth<double>(*system, {}, {}).rate(state, time);
 }
 
 TEST(Growth, IsTheLargestEigenvalueThatGrowsInTime) {
@@ -33,9 +33,10 @@ TEST(Growth, RestsInAModeWhateverTheOthersDo) {
     s.v[0] = 1;
     s.x[0] = 1 + deviation;
     s.w << 0, 100 * std::sin(deviation);
-    Growth<double> growth(*system, DerivativeSource::kAutomatic);
+    Growth<double> growth(*system, {.atol = 1e-4, .norm = NormKind::kAbsolute}, {});
+    growth.speed(s);
     EXPECT_GT(growth.rate(s, 10), 0);
-    const auto motions = growth.motions(s, 10, Vec<double>::Constant(3, 1e-4), Vec<double>::Constant(3, 1e-13), 0);
+    const auto motions = growth.motions(s, 10, 0);
     EXPECT_NEAR(motions->faster, motions->resting, 1e-9) << "not an oscillation";
     EXPECT_NEAR(motions->living, 100, 1e-4);
     EXPECT_FALSE(motions->vanished);

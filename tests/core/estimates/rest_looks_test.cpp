@@ -118,7 +118,7 @@ struct Equal {
 
 // The motion is judged with one direction per eigenvalue. With one direction for all equal ones, what moves along the
 // others would be lost, or what rests would seem to move.
-TEST(StateJudge, EqualEigenvaluesHaveOneDirectionEach) {
+TEST(Growth, EqualEigenvaluesHaveOneDirectionEach) {
   for (const double rate : {5.0, -5.0}) {
     const auto system = makeSystem<double>(Equal{rate});
     for (Index moved = 0; moved < 3; ++moved) {
@@ -128,16 +128,16 @@ TEST(StateJudge, EqualEigenvaluesHaveOneDirectionEach) {
       s.w[moved] = rate * 1e-6;
       Tolerances tolerances;
       tolerances.rtol = tolerances.atol = 1e-4;
-      StateJudge<double> judge(*system, tolerances, {});
-      EXPECT_NEAR(judge.speed(s), 5e-6 / 2e-4, 1e-6);
-      EXPECT_EQ(judge.growth(s, 10), std::max(rate, 0.0));
-      const auto motions = judge.motions(s, 10, 0);
+      Growth<double> growth(*system, tolerances, {});
+      EXPECT_NEAR(growth.speed(s), 5e-6 / 2e-4, 1e-6);
+      EXPECT_EQ(growth.rate(s, 10), std::max(rate, 0.0));
+      const auto motions = growth.motions(s, 10, 0);
       ASSERT_TRUE(motions);
       EXPECT_EQ(motions->resting, std::max(rate, 0.0)) << moved;
       EXPECT_EQ(motions->living, 5) << moved;
       EXPECT_FALSE(motions->vanished) << moved;
       s.w[moved] = 0;  // nothing is left of it
-      const auto nothing = judge.motions(s, 10, 0);
+      const auto nothing = growth.motions(s, 10, 0);
       ASSERT_TRUE(nothing);
       EXPECT_EQ(nothing->living, 0) << moved;
       EXPECT_EQ(nothing->vanished, rate > 0) << moved;
@@ -154,15 +154,15 @@ struct Critical {
   }
 };
 
-TEST(StateJudge, AnEigenvectorThatIsMissingLeavesTheMotionLiving) {
+TEST(Growth, AnEigenvectorThatIsMissingLeavesTheMotionLiving) {
   const auto system = makeSystem<double>(Critical{});
   State<double> s(system->sizes());
   s.u[0] = 1.001;
   s.w[0] = -0.025;
-  StateJudge<double> judge(*system, embedded(1e-4).tolerances, {});
-  judge.speed(s);
-  EXPECT_EQ(judge.growth(s, 10), 0);
-  const auto motions = judge.motions(s, 10, 0);
+  Growth<double> growth(*system, embedded(1e-4).tolerances, {});
+  growth.speed(s);
+  EXPECT_EQ(growth.rate(s, 10), 0);
+  const auto motions = growth.motions(s, 10, 0);
   ASSERT_TRUE(motions);
   EXPECT_NEAR(motions->living, 5, 1e-6);
   EXPECT_EQ(motions->resting, 0);
