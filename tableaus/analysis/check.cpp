@@ -58,36 +58,24 @@ void checkRowSums(const Subject& subject, Findings& findings) {
 }
 
 // B(p) is necessary for order p, because quadrature is a special differential equation.
-void checkQuadrature(const Subject& subject, Findings& findings) {
-  const auto& [tableau, analysis] = subject;
-  const int declared = tableau.order;
-  if (declared < 1 || declared > 2 * tableau.stages()) {
-    add(findings, Verdict::kContradiction, Place::kOrder, "B",
-        fmt::format("order {} is impossible: with {} stages it is 1 to {}", declared, tableau.stages(),
-                    2 * tableau.stages()));
-  } else if (declared > analysis.p) {
-    add(findings, Verdict::kContradiction, Place::kOrder, "B",
-        fmt::format("order {} is contradicted by B({}), whose residual is {:.3g}", declared, analysis.p + 1,
-                    analysis.residuals.B[analysis.p]));
-  } else {
-    add(findings, Verdict::kHolds, Place::kOrder, "B", fmt::format("B({}) holds", declared));
-  }
-}
-
-void checkStageOrder(const Subject& subject, Findings& findings) {
-  const auto& [tableau, analysis] = subject;
-  const int declared = tableau.stage_order;
-  if (declared < 0 || declared > tableau.stages()) {
-    add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
-        fmt::format("stage order {} is impossible: with {} stages it is 0 to {}", declared, tableau.stages(),
-                    tableau.stages()));
-  } else if (declared > analysis.q) {
-    add(findings, Verdict::kContradiction, Place::kStageOrder, "C",
-        fmt::format("stage order {} is contradicted by C({}), whose residual is {:.3g}", declared, analysis.q + 1,
-                    analysis.residuals.C[analysis.q]));
-  } else {
-    add(findings, Verdict::kHolds, Place::kStageOrder, "C", fmt::format("C({}) holds", declared));
-  }
+void checkConditions(const Subject& subject, Findings& findings) {
+  const auto& residuals = subject.analysis.residuals;
+  const Index s = subject.tableau.stages();
+  const auto check = [&](Place place, const char* condition, std::string_view order, int declared, Index least,
+                         Index most, int holds, const Vec<double>& of) {
+    if (declared < least || declared > most) {
+      add(findings, Verdict::kContradiction, place, condition,
+          fmt::format("{} {} is impossible: with {} stages it is {} to {}", order, declared, s, least, most));
+    } else if (declared > holds) {
+      add(findings, Verdict::kContradiction, place, condition,
+          fmt::format("{} {} is contradicted by {}({}), whose residual is {:.3g}", order, declared, condition,
+                      holds + 1, of[holds]));
+    } else {
+      add(findings, Verdict::kHolds, place, condition, fmt::format("{}({}) holds", condition, declared));
+    }
+  };
+  check(Place::kOrder, "B", "order", subject.tableau.order, 1, 2 * s, subject.analysis.p, residuals.B);
+  check(Place::kStageOrder, "C", "stage order", subject.tableau.stage_order, 0, s, subject.analysis.q, residuals.C);
 }
 
 /// Largest |x - y| / max(1, |y|).
@@ -150,7 +138,7 @@ void checkFamily(const Subject& subject, Findings& findings) {
 void checkProof(const Subject& subject, Findings& findings) {
   const auto& [tableau, analysis] = subject;
   const int declared = tableau.order;
-  if (declared > analysis.p) return;                             // checkQuadrature reports this contradiction
+  if (declared > analysis.p) return;                             // checkConditions reports this contradiction
   const bool of_family = findFamily(tableau.family) != nullptr;  // its order is known from theory
   if (declared > analysis.proven_order) {
     add(findings, Verdict::kUnproven, Place::kOrder, "order",
@@ -227,8 +215,8 @@ void checkEmbedded(const Subject& subject, Findings& findings) {
 }
 
 // In the order of printing. A file is refused because of its first contradiction.
-constexpr Check kChecks[] = {checkWeights, checkRowSums, checkQuadrature, checkStageOrder,
-                             checkFamily,  checkProof,   checkTrees,      checkEmbedded};
+constexpr Check kChecks[] = {checkWeights, checkRowSums, checkConditions, checkFamily,
+                             checkProof,   checkTrees,   checkEmbedded};
 
 std::string_view verdictName(Verdict verdict) {
   switch (verdict) {

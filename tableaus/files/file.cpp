@@ -17,24 +17,9 @@ using tableaus::Verdict;
 namespace {
 
 int lineOf(const TableauFile& file, const Finding& finding) {
-  const auto orRowOne = [&](int line) { return line > 0 ? line : file.row_lines.front(); };
-  switch (finding.place) {
-    case Place::kFamily:
-      return orRowOne(file.family_line);
-    case Place::kOrder:
-      return orRowOne(file.order_line);
-    case Place::kStageOrder:
-      return orRowOne(file.stage_order_line);
-    case Place::kRow:
-      return file.row_lines[static_cast<std::size_t>(finding.row)];
-    case Place::kWeights:
-      return file.weights_line;
-    case Place::kWeightsHat:
-      return file.weights_hat_line;
-    case Place::kOrderHat:
-      return file.order_hat_line;
-  }
-  return 0;
+  if (finding.place == Place::kRow) return file.row_lines[static_cast<std::size_t>(finding.row)];
+  const auto line = file.lines.find(finding.place);
+  return line == file.lines.end() ? file.row_lines.front() : line->second;
 }
 
 /// One line per row; columns are as wide as their widest number.

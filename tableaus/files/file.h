@@ -22,6 +22,7 @@
 //   1      0
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,14 +33,13 @@
 
 namespace irk {
 
-/// The content of a file. Line numbers count from 1; 0 stands for a missing key.
+/// The content of a file. Line numbers count from 1.
 struct TableauFile {
   Tableau<BigFloat> tableau;
   std::string source;
   int digits;
-  int family_line = 0, order_line = 0, stage_order_line = 0, weights_line = 0;
-  int order_hat_line = 0, weights_hat_line = 0;
-  std::vector<int> row_lines;  ///< s, of A
+  std::map<tableaus::Place, int> lines;  ///< of the keys and rows that are there, but for those of A
+  std::vector<int> row_lines;            ///< s, of A
 };
 
 /// Parses the text without checking the coefficients against the header. `name` is used in messages and as id. Throws

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/split.hpp>
 #include <charconv>
 #include <map>
 #include <regex>
+#include <utility>
 
 #include "core/base/text.h"
 #include "irk/misuse.h"
@@ -12,6 +14,9 @@
 #include "tableaus/files/file.h"
 
 namespace irk {
+
+using tableaus::Place;
+
 namespace {
 
 constexpr int kMinDigits = 15;  // as a double has; the default of the key `digits`
@@ -23,6 +28,11 @@ const std::vector<std::string>& headerKeys() {
                                                 "order_hat", "source", "digits"};
   return keys;
 }
+
+constexpr std::pair<const char*, Place> kPlaces[] = {{"family", Place::kFamily},
+                                                     {"order", Place::kOrder},
+                                                     {"stage_order", Place::kStageOrder},
+                                                     {"order_hat", Place::kOrderHat}};
 
 struct Line {
   int number;
@@ -38,13 +48,8 @@ std::string trimmed(std::string_view text) {
 
 std::vector<std::string> words(const std::string& text) {
   std::vector<std::string> result;
-  for (std::size_t end = 0, start = 0; start != std::string::npos;) {
-    start = text.find_first_not_of(" \t", end);
-    if (start == std::string::npos) break;
-    end = std::min(text.find_first_of(" \t", start), text.size());
-    result.push_back(text.substr(start, end - start));
-  }
-  return result;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  return boost::split(result, text, is_blank, boost::token_compress_on);
 }
 
 class Parser {
@@ -70,9 +75,9 @@ class Parser {
     tableau.order = integer("order", 1, 2 * s);
     file.source = header_.contains("source") ? header_["source"].text : "";
     file.digits = header_.contains("digits") ? integer("digits", kMinDigits, kMaxDigits) : kMinDigits;
-    file.family_line = header_["family"].number;
-    file.order_line = header_["order"].number;
-    file.stage_order_line = header_["stage_order"].number;
+    for (const auto& [key, place] : kPlaces) {
+      if (header_.contains(key)) file.lines[place] = header_[key].number;
+    }
 
     tableau.A.resize(s, s);
     expectWord("A");
@@ -82,7 +87,7 @@ class Parser {
       tableau.A.row(i) = row(what, s).transpose();
     }
     expectWord("b");
-    file.weights_line = nextLine("the row of b").number;
+    file.lines[Place::kWeights] = nextLine("the row of b").number;
     tableau.b = row("the row of b", s);
     expectWord("c");
     tableau.c = row("the row of c", s);
@@ -103,9 +108,8 @@ class Parser {
     if (!has_block && key == header_.end()) return;
     if (!has_block) fail(key->second.number, "'order_hat' without a block b_hat after block c");
     file.tableau.order_hat = integer("order_hat", 1, 2 * s);
-    file.order_hat_line = key->second.number;
     ++position_;
-    file.weights_hat_line = nextLine("the row of b_hat").number;
+    file.lines[Place::kWeightsHat] = nextLine("the row of b_hat").number;
     file.tableau.b_hat = row("the row of b_hat", s);
   }
 
@@ -209,7 +213,7 @@ class Parser {
   int stageOrderOf(const TableauFile& file) const {
     const Tableau<BigFloat>& tableau = file.tableau;
     const auto s = static_cast<int>(tableau.stages());
-    if (header_.at("stage_order").number > 0) return integer("stage_order", 0, s);
+    if (header_.contains("stage_order")) return integer("stage_order", 0, s);
     if (const Family* family = findFamily(tableau.family)) return family->orders(s).q;
     return std::min(s, analyzeTableau(tableau, toleranceOfDigits(file.digits)).q);
   }
