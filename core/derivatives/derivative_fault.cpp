@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/derivatives/point_buffers.h"
+#include "core/system/component_name.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -23,15 +24,7 @@ class NearState {
 
   /// The components of (u, v, x), in this order.
   Index components() const { return 2 * state_.u.size() + state_.x.size(); }
-  const Real& value(Index i) const {
-    const Index nu = state_.u.size();
-    return i < nu ? state_.u[i] : i < 2 * nu ? state_.v[i - nu] : state_.x[i - 2 * nu];
-  }
-  std::string name(Index i) const {
-    const Index nu = state_.u.size();
-    const char* const group = i < nu ? "u" : i < 2 * nu ? "v" : "x";
-    return group + ("[" + std::to_string(i < nu ? i : i < 2 * nu ? i - nu : i - 2 * nu) + "]");
-  }
+  const Real& value(Index i) const { return componentOf(state_, i); }
 
   /// The first row with a derivative that is not finite; -1 if there is none.
   Index faultyRow() {
@@ -53,10 +46,8 @@ class NearState {
     buffers_.copy(pointOf(state_));
     for (Index i = 0; i < buffers_.w.size(); ++i) buffers_.w[i].d[0] = Real(1);
     using std::abs;
-    const Index nu = state_.u.size();
     for (Index i = first; i < last; ++i) {
-      Dual<Real>& moved = i < nu ? buffers_.u[i] : i < 2 * nu ? buffers_.v[i - nu] : buffers_.x[i - 2 * nu];
-      moved += Dual<Real>(Real(kBeside) * (Real(1) + Real(abs(value(i)))));
+      componentOf(buffers_, i) += Dual<Real>(Real(kBeside) * (Real(1) + Real(abs(value(i)))));
     }
     system_.evaluate(Level::kAcceleration, buffers_.at(Dual<Real>(state_.t)), buffers_.residual());
   }
@@ -95,7 +86,8 @@ std::string derivativeFault(const System<Real>& system, DerivativeSource source,
   text << "row " << row << ": dr/d(a, k, z) is not finite, though r is";
   const Index component = componentToBlame(near, row);
   if (component >= 0) {
-    text << "; it is finite beside " << near.name(component) << " = " << static_cast<double>(near.value(component));
+    text << "; it is finite beside " << componentName(system.sizes(), component) << " = "
+         << static_cast<double>(near.value(component));
   }
   text << "; the likely cause is a derivative 0/0 at this point, as of sqrt(x) at x = 0; derivatives "
           "'difference_central' may pass";

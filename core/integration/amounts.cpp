@@ -48,12 +48,6 @@ Amounts<Real>::Amounts(const System<Real>& system, ConsistentStart<Real>& start,
 }
 
 template <class Real>
-Real Amounts<Real>::component(const State<Real>& state, Index i) const {
-  if (i < sizes_.nu) return state.u[i];
-  return i < 2 * sizes_.nu ? state.v[i - sizes_.nu] : state.x[i - 2 * sizes_.nu];
-}
-
-template <class Real>
 void Amounts<Real>::begin(const State<Real>& state, const ErrorNorm<Real>& norm) {
   norm.weightsAtZero(least_);
   round_off_ = kRoundOffUnits * std::numeric_limits<double>::epsilon() / norm.tolerance();
@@ -61,7 +55,7 @@ void Amounts<Real>::begin(const State<Real>& state, const ErrorNorm<Real>& norm)
   never_.clear();
   negative_.clear();
   for (Index i = 0; i < least_.size(); ++i) {
-    largest_[i] = std::abs(static_cast<double>(component(state, i)));
+    largest_[i] = std::abs(static_cast<double>(componentOf(state, i)));
     if (largest_[i] < least_[i]) small_.push_back(i);
   }
   for (Index i = 0; i < scene_nx_; ++i) {
@@ -73,7 +67,7 @@ template <class Real>
 void Amounts<Real>::look(const State<Real>& from, const State<Real>& to) {
   for (std::size_t at = 0; at < small_.size();) {
     const Index i = small_[at];
-    const double size = std::abs(static_cast<double>(component(to, i)));
+    const double size = std::abs(static_cast<double>(componentOf(to, i)));
     largest_[i] = std::max(largest_[i], size);
     if (size < least_[i]) {
       ++at;

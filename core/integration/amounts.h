@@ -44,7 +44,6 @@ class Amounts {
     double value = 0, t = 0;
     bool declared = false;
   };
-  Real component(const State<Real>& state, Index i) const;
   // x_i of the scene, by more than its tolerance.
   bool isBelowZero(const State<Real>& state, Index i) const {
     return static_cast<double>(state.x[first_x_ + i]) < -least_[2 * sizes_.nu + first_x_ + i];

@@ -90,10 +90,7 @@ class SmallComponents {
   }
   bool isAccurate(const StepRecord<Real>& step, Index i, double y) const {
     if (!step.errors) return false;
-    const State<Real>& e = *step.errors;
-    const Index nu = e.u.size();
-    const Real& error = i < nu ? e.u[i] : i < 2 * nu ? e.v[i - nu] : e.x[i - 2 * nu];
-    return std::abs(static_cast<double>(error)) <= relative_ * y;
+    return std::abs(static_cast<double>(componentOf(*step.errors, i))) <= relative_ * y;
   }
   // Calls f(component, its index, its magnitude, that of its rate).
   template <class F>

@@ -1,4 +1,4 @@
-// Names of components in messages.
+// Components by their number, and their names in messages.
 #pragma once
 
 #include <string>
@@ -6,6 +6,12 @@
 #include "irk/system.h"
 
 namespace irk {
+
+/// Component i of (u, v, x).
+auto& componentOf(auto& s, Index i) {
+  const Index nu = s.u.size();
+  return i < nu ? s.u[i] : i < 2 * nu ? s.v[i - nu] : s.x[i - 2 * nu];
+}
 
 /// "u[3]": component i of (u, v, x, z).
 inline std::string componentName(const Sizes& n, Index i) {
