@@ -39,27 +39,11 @@ class GglSystem final : public System<Real> {
     evaluateAt(level, p, r.data());
   }
   void switching(const Point<Real>& p, VecView<Real> g) const override { scene_.switching(scenePoint(p), g); }
-  void onSwitch(Index i, State<Real>& state) const override {
-    State<Real> scene = toScene(state);
-    scene_.onSwitch(i, scene);
-    state.d = scene.d;
-  }
-  void jump(Index i, State<Real>& state) const override {
-    State<Real> scene = toScene(state);
-    scene_.jump(i, scene);
-    state.x << scene.u, scene.v, scene.x;
-  }
+  void onSwitch(Index i, State<Real>& state) const override { changeBy(&Base::onSwitch, i, state); }
+  void jump(Index i, State<Real>& state) const override { changeBy(&Base::jump, i, state); }
   std::vector<Real> times() const override { return scene_.times(); }
-  void onTime(Index i, State<Real>& state) const override {
-    State<Real> scene = toScene(state);
-    scene_.onTime(i, scene);
-    state.d = scene.d;
-  }
-  void jumpAtTime(Index i, State<Real>& state) const override {
-    State<Real> scene = toScene(state);
-    scene_.jumpAtTime(i, scene);
-    state.x << scene.u, scene.v, scene.x;
-  }
+  void onTime(Index i, State<Real>& state) const override { changeBy(&Base::onTime, i, state); }
+  void jumpAtTime(Index i, State<Real>& state) const override { changeBy(&Base::jumpAtTime, i, state); }
   bool completesSteps() const override { return scene_.completesSteps(); }
   bool completeStep(State<Real>& state) const override {
     State<Real> scene = toScene(state);
@@ -96,6 +80,14 @@ class GglSystem final : public System<Real> {
   }
 
  private:
+  using Base = System<Real>;
+  void changeBy(void (Base::*change)(Index, State<Real>&) const, Index i, State<Real>& state) const {
+    State<Real> scene = toScene(state);
+    (scene_.*change)(i, scene);
+    state.d = scene.d;
+    state.x << scene.u, scene.v, scene.x;
+  }
+
   template <class T>
   Point<T> scenePoint(const Point<T>& p) const {
     const Index nu = inner_.nu, nx = inner_.nx;
