@@ -39,22 +39,6 @@ void appendBlocks(BlockForm<Real>& form) {
   }
 }
 
-using KeptForms = Kept<BlockForm<double>>;
-
-std::string keyOf(const Mat<double>& A) {
-  std::string key;
-  appendKey(A, key);
-  return key;
-}
-
-std::shared_ptr<const BlockForm<double>> keptForm(KeptForms& kept, const Mat<double>& A, auto make) {
-  return kept.of(keyOf(A), [&] {
-    auto form = make(A);
-    form.T2 = form.T * form.T;
-    return form;
-  });
-}
-
 template <class Real>
 BlockForm<Real> makeSchurForm(const Mat<Real>& A) {
   const Eigen::RealSchur<Mat<Real>> schur(A);
@@ -150,26 +134,33 @@ std::shared_ptr<const BlockForm<BigFloat>> madePrecisely(const Mat<BigFloat>& A,
   return form;
 }
 
+// `make` is an argument of the template: each form has its own cache.
+template <class Real, auto make>
+std::shared_ptr<const BlockForm<Real>> formOf(const Mat<Real>& A) {
+  if constexpr (std::is_same_v<Real, double>) {
+    static Kept<BlockForm<double>> kept;
+    std::string key;
+    appendKey(A, key);
+    return kept.of(key, [&] {
+      auto form = make(A);
+      form.T2 = form.T * form.T;
+      return form;
+    });
+  } else {
+    return madePrecisely(A, make);
+  }
+}
+
 }  // namespace
 
 template <class Real>
 std::shared_ptr<const BlockForm<Real>> schurForm(const Mat<Real>& A) {
-  if constexpr (std::is_same_v<Real, double>) {
-    static KeptForms kept;
-    return keptForm(kept, A, makeSchurForm<double>);
-  } else {
-    return madePrecisely(A, makeSchurForm<Real>);
-  }
+  return formOf<Real, makeSchurForm<Real>>(A);
 }
 
 template <class Real>
 std::shared_ptr<const BlockForm<Real>> eigenForm(const Mat<Real>& A) {
-  if constexpr (std::is_same_v<Real, double>) {
-    static KeptForms kept;
-    return keptForm(kept, A, makeEigenForm<double>);
-  } else {
-    return madePrecisely(A, makeEigenForm<Real>);
-  }
+  return formOf<Real, makeEigenForm<Real>>(A);
 }
 
 template std::shared_ptr<const BlockForm<double>> schurForm(const Mat<double>&);
