@@ -1,5 +1,6 @@
 // `ignore` and `smooth`: the mode follows the solution from step to step.
 #include <algorithm>
+#include <memory>
 
 #include "core/estimates/step_attempt.h"
 #include "core/modes/switch_effect.h"
@@ -69,12 +70,6 @@ class SmoothInStep final : public FollowedModes<Real> {
   }
 };
 
-template <class Real>
-class IgnoredAfterStep final : public ModesAfterStep<Real> {
- public:
-  IgnoredAfterStep(const System<Real>&, const IntegratorOptions&) {}
-};
-
 /// Nothing switches.
 template <class Real>
 class SmoothAfterStep final : public ModesAfterStep<Real> {
@@ -94,7 +89,8 @@ Strategy<Discontinuity> ignoredModes() {
           "jumps are left to the error estimate (paper)",
           {},
           makes<ModesInStepMaker, IgnoredInStep>(),
-          makes<ModesAfterStepMaker, IgnoredAfterStep>()};
+          {[](const auto&...) { return std::make_unique<ModesAfterStep<double>>(); },
+           [](const auto&...) { return std::make_unique<ModesAfterStep<BigFloat>>(); }}};
 }
 
 Strategy<Discontinuity> smoothModes() {
