@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -31,6 +32,22 @@ struct AncfData {
   Real g;                // m/s^2, downwards
   Real tip_load;         // N, dead load, downwards
   AncfSupport support;
+
+  /// From the parameters elements, L, E, A, I, rho and g; without a load at the tip.
+  static AncfData from(const Settings& values, AncfSupport support) {
+    const auto value = [&](const char* name) { return number<Real>(values, name); };
+    const Real E = value("E"), A = value("A");
+    return {.elements = static_cast<Index>(number<double>(values, "elements")),
+            .L = value("L"),
+            .EA = E * A,
+            .EI = E * value("I"),
+            .rhoA = value("rho") * A,
+            .g = value("g"),
+            .tip_load = Real(0),
+            .support = support};
+  }
+  /// The magnitude of velocities in m/s: that of a rigid rod, sqrt(3 g L) at its tip.
+  double speed() const { return std::max(std::sqrt(static_cast<double>(Real(3 * g * L))), 1.0); }
 };
 
 /// A problem struct: a beam along x, discretized by equal elements. u holds the free coordinates, node by node

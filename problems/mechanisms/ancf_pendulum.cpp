@@ -9,24 +9,13 @@ namespace {
 template <class Real>
 struct AncfPendulum {
   static Scene<Real> make(const Settings& values) {
-    const auto value = [&](const char* name) { return number<Real>(values, name); };
-    const Real L = value("L"), E = value("E"), A = value("A");
-    const AncfData<Real> data{.elements = static_cast<Index>(number<double>(values, "elements")),
-                              .L = L,
-                              .EA = E * A,
-                              .EI = E * value("I"),
-                              .rhoA = value("rho") * A,
-                              .g = value("g"),
-                              .tip_load = Real(0),
-                              .support = AncfSupport::kHinged};
+    const auto data = AncfData<Real>::from(values, AncfSupport::kHinged);
     const AncfBeam<Real> beam(data);
     Scene<Real> scene;
     setProblem(scene, beam);
     scene.start = beam.straightStart();
     scene.t_end = 1;
-    // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
-    const double speed = std::sqrt(static_cast<double>(Real(3 * data.g * L)));
-    setComponents(scene, beam.coordinates(std::max(speed, 1.0)));
+    setComponents(scene, beam.coordinates(data.speed()));
     scene.outputs = {{"energy", [beam](const State<Real>& s) { return beam.energy(s.u, s.v); }, "J", true}};
     return scene;
   }

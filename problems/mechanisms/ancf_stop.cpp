@@ -5,8 +5,6 @@
 // is N = k delta (1 + c delta') (Hunt and Crossley): zero where contact begins and ends, and never pulling as long as
 // the tip leaves with less than 1 / c. Friction is Coulomb's, mu N against the tip's velocity v along the plane; below
 // the speed `creep` it falls in proportion to v, so that the tip creeps instead of sticking.
-#include <algorithm>
-
 #include "irk/regularised.h"
 #include "irk/scene_file.h"
 #include "problems/mechanisms/ancf_beam.h"
@@ -107,15 +105,7 @@ void setOutputs(const ArmWithStop<Real>& problem, Scene<Real>& scene) {
 template <class Real>
 Scene<Real> sceneOf(AncfSupport support, const Settings& settings) {
   const auto value = [&](const char* name) { return number<Real>(settings, name); };
-  const Real L = value("L"), E = value("E"), A = value("A");
-  const AncfData<Real> data{.elements = static_cast<Index>(number<double>(settings, "elements")),
-                            .L = L,
-                            .EA = E * A,
-                            .EI = E * value("I"),
-                            .rhoA = value("rho") * A,
-                            .g = value("g"),
-                            .tip_load = Real(0),
-                            .support = support};
+  const auto data = AncfData<Real>::from(settings, support);
   const ArmWithStop<Real> problem{.beam = AncfBeam<Real>(data),
                                   .gap = value("gap"),
                                   .k = value("k"),
@@ -130,9 +120,7 @@ Scene<Real> sceneOf(AncfSupport support, const Settings& settings) {
   scene.start.w = straight.w;
   scene.start.d << 0, 0, 1;
   scene.t_end = 0.3;
-  // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
-  const double speed = std::sqrt(static_cast<double>(Real(3 * data.g * L)));
-  setComponents(scene, problem.beam.coordinates(std::max(speed, 1.0)));
+  setComponents(scene, problem.beam.coordinates(data.speed()));
   setOutputs(problem, scene);
   return scene;
 }

@@ -4,7 +4,6 @@
 // The mass is at the arc length s of the undeformed beam: (x, y) = r(s, q). From one element to the next r and its
 // slope r' are continuous, r'' jumps, and with it the force on the mass, r'' s'^2: a switch. Beyond the tip the last
 // element is extrapolated.
-#include <algorithm>
 #include <type_traits>
 
 #include "irk/scene_file.h"
@@ -224,18 +223,10 @@ template <class Real>
 struct SlidingMass {
   static Scene<Real> make(const Settings& values) {
     const auto value = [&](const char* name) { return number<Real>(values, name); };
-    const Real L = value("L"), E = value("E"), A = value("A"), s0 = value("start") * L, v0 = value("v0");
-    const AncfData<Real> data{.elements = static_cast<Index>(number<double>(values, "elements")),
-                              .L = L,
-                              .EA = E * A,
-                              .EI = E * value("I"),
-                              .rhoA = value("rho") * A,
-                              .g = value("g"),
-                              .tip_load = Real(0),
-                              .support = AncfSupport::kClamped};
+    const auto data = AncfData<Real>::from(values, AncfSupport::kClamped);
+    const Real s0 = value("start") * data.L, v0 = value("v0");
     const Slide<Real> slide{.beam = AncfBeam<Real>(data), .m = value("m"), .g = data.g};
-    // Velocities have the magnitude of those of a rigid rod, sqrt(3 g L) at its tip.
-    const double speed = std::max(std::sqrt(static_cast<double>(Real(3 * data.g * L))), 1.0);
+    const double speed = data.speed();
     Scene<Real> scene;
     if (values.at("coordinates") == "inserted") {
       setUp(Inserted<Real>{slide}, s0, v0, speed, scene);
