@@ -19,7 +19,8 @@ enum Switch : Index { kNext, kPrevious };
 template <class Real>
 struct Slide {
   AncfBeam<Real> beam;
-  Real m, g;  // kg, m/s^2, downwards
+  Real m, g;    // kg, m/s^2, downwards
+  Index place;  // of the coordinate s in u
 
   Index beamUnknowns() const { return beam.sizes().nu; }
   Index last() const { return beam.elements() - 1; }
@@ -57,13 +58,13 @@ struct Slide {
   }
 
   template <class T>
-  void dueAt(const T& s, const T& d, T* due) const {
-    const Index element = elementOf(d);
-    due[kNext] = element < last() ? T(s - startOf(element + 1)) : T(-1.0);
-    due[kPrevious] = element > 0 ? T(startOf(element) - s) : T(-1.0);
+  void switching(const Point<T>& p, T* due) const {
+    const Index element = elementOf(p.d[0]);
+    due[kNext] = element < last() ? T(p.u[place] - startOf(element + 1)) : T(-1.0);
+    due[kPrevious] = element > 0 ? T(startOf(element) - p.u[place]) : T(-1.0);
   }
   template <class T>
-  void change(Index i, T* d) const {
+  void onSwitch(Index i, const Point<T>&, T* d) const {
     const T next = d[0] + (i == kNext ? 1.0 : -1.0);
     if (next >= T(0.0) && next <= T(static_cast<double>(last()))) d[0] = next;
   }
@@ -79,7 +80,6 @@ struct Joint : Slide<Real> {
     return {.nu = this->beamUnknowns() + 4, .nz = 2, .constraints = 2, .discrete = 1, .switches = 2};
   }
   Index x() const { return this->beamUnknowns(); }
-  Index s() const { return this->beamUnknowns() + 2; }
   Index begin() const { return this->beamUnknowns() + 3; }
   template <class T>
   Index elementFrom(const T& begin) const {
@@ -91,30 +91,22 @@ struct Joint : Slide<Real> {
   void residual(const Point<T>& p, Rows<T> r) const {
     this->beam.residual(p, r);
     const Index element = elementFrom(p.u[begin()]);
-    const T xi = this->inside(p.u[s()], element);
+    const T xi = this->inside(p.u[this->place], element);
     const auto slope = this->sum(this->beam.template firstDerivatives<T>(xi), p.u, element);
     this->push(this->beam.template shapes<T>(xi), p.z[0], p.z[1], element, r);
     r.u[x()] = -this->m * p.a[x()] - p.z[0];
     r.u[x() + 1] = -this->m * (p.a[x() + 1] + this->g) - p.z[1];
-    r.u[s()] = slope[0] * p.z[0] + slope[1] * p.z[1];
+    r.u[this->place] = slope[0] * p.z[0] + slope[1] * p.z[1];
     r.u[begin()] = -p.a[begin()];
   }
   template <class T, class U, class G>
   void constraints(const T&, const U& u, G&& c) const {
-    const auto at = u[s()];
+    const auto at = u[this->place];
     using V = std::decay_t<decltype(at)>;
     const Index element = elementFrom(V(u[begin()]));
     const auto r = this->template sum<V>(this->beam.template shapes<V>(this->inside(at, element)), u, element);
     c[0] = u[x()] - r[0];
     c[1] = u[x() + 1] - r[1];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* due) const {
-    this->dueAt(p.u[s()], p.d[0], due);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    this->change(i, d);
   }
   template <class T>
   void jump(Index, const Point<T>& p, T* u, T*, T*) const {
@@ -126,13 +118,12 @@ struct Joint : Slide<Real> {
 template <class Real>
 struct Inserted : Slide<Real> {
   Sizes sizes() const { return {.nu = this->beamUnknowns() + 1, .discrete = 1, .switches = 2}; }
-  Index s() const { return this->beamUnknowns(); }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     this->beam.residual(p, r);
     const Index element = this->elementOf(p.d[0]);
-    const T xi = this->inside(p.u[s()], element);
-    const T &rate = p.v[s()], &acceleration = p.a[s()];
+    const T xi = this->inside(p.u[this->place], element);
+    const T &rate = p.v[this->place], &acceleration = p.a[this->place];
     const auto shapes = this->beam.template shapes<T>(xi), first = this->beam.template firstDerivatives<T>(xi);
     const auto moved = this->sum(shapes, p.a, element), turned = this->sum(first, p.v, element);
     const auto slope = this->sum(first, p.u, element);
@@ -143,26 +134,18 @@ struct Inserted : Slide<Real> {
     }
     force[1] -= this->m * this->g;
     this->push(shapes, force[0], force[1], element, r);
-    r.u[s()] = slope[0] * force[0] + slope[1] * force[1];
-  }
-  template <class T>
-  void switching(const Point<T>& p, T* due) const {
-    this->dueAt(p.u[s()], p.d[0], due);
-  }
-  template <class T>
-  void onSwitch(Index i, const Point<T>&, T* d) const {
-    this->change(i, d);
+    r.u[this->place] = slope[0] * force[0] + slope[1] * force[1];
   }
   std::array<Real, 2> position(const State<Real>& state) const {
-    const Index element = this->elementAt(state.u[s()]);
-    return this->sum(this->beam.template shapes<Real>(this->inside(state.u[s()], element)), state.u, element);
+    const Index element = this->elementAt(state.u[this->place]);
+    return this->sum(this->beam.template shapes<Real>(this->inside(state.u[this->place], element)), state.u, element);
   }
   std::array<Real, 2> velocity(const State<Real>& state) const {
-    const Index element = this->elementAt(state.u[s()]);
-    const Real xi = this->inside(state.u[s()], element);
+    const Index element = this->elementAt(state.u[this->place]);
+    const Real xi = this->inside(state.u[this->place], element);
     const auto moved = this->sum(this->beam.template shapes<Real>(xi), state.v, element);
     const auto slope = this->sum(this->beam.template firstDerivatives<Real>(xi), state.u, element);
-    const Real& rate = state.v[s()];
+    const Real& rate = state.v[this->place];
     return {moved[0] + slope[0] * rate, moved[1] + slope[1] * rate};
   }
 };
@@ -225,15 +208,18 @@ struct SlidingMass {
     const auto value = [&](const char* name) { return number<Real>(values, name); };
     const auto data = AncfData<Real>::from(values, AncfSupport::kClamped);
     const Real s0 = value("start") * data.L, v0 = value("v0");
-    const Slide<Real> slide{.beam = AncfBeam<Real>(data), .m = value("m"), .g = data.g};
+    const AncfBeam<Real> beam(data);
+    const bool inserted = values.at("coordinates") == "inserted";
+    const Index place = beam.sizes().nu + (inserted ? 0 : 2);
+    const Slide<Real> slide{.beam = beam, .m = value("m"), .g = data.g, .place = place};
     const double speed = data.speed();
     Scene<Real> scene;
-    if (values.at("coordinates") == "inserted") {
+    if (inserted) {
       setUp(Inserted<Real>{slide}, s0, v0, speed, scene);
     } else {
       setUp(Joint<Real>{slide}, s0, v0, speed, scene);
     }
-    const Vec<Real> straight = slide.beam.straightStart().u;
+    const Vec<Real> straight = beam.straightStart().u;
     scene.start.u.head(straight.size()) = straight;
     scene.start.d << static_cast<double>(slide.elementAt(s0));
     completeStart(scene);
