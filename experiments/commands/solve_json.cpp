@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "experiments/commands/commands.h"
 #include "experiments/runs/fields.h"
@@ -50,14 +52,22 @@ Json specObject(const RunSpec& spec) {
   return object;
 }
 
-// For runs with switches: their times and names, and their counters.
-void addSwitches(const RunRecord& record, Json& json) {
-  const Counters& c = record.counters;
-  if (c.switches == 0 && c.discontinuous_iterations == 0) return;
-  json["counters"]["switches"] = c.switches;
-  json["counters"]["discontinuous_iterations"] = c.discontinuous_iterations;
-  json["counters"]["located_events"] = c.located_events;
-  json["counters"]["chattering"] = c.chattering;
+// Runs with switches have further counters, and the times and names of their switches.
+void addCounters(const RunRecord& record, Json& json) {
+  constexpr std::string_view kSteps = "steps_";
+  constexpr std::string_view kOfSwitches[] = {"switches", "discontinuous_iterations", "located_events", "chattering"};
+  const bool has_switches = record.counters.switches != 0 || record.counters.discontinuous_iterations != 0;
+  Json steps, counters;
+  record.counters.forEach([&](const std::string& name, std::int64_t count) {
+    if (name.starts_with(kSteps)) {
+      steps[name.substr(kSteps.size())] = count;
+    } else if (has_switches || std::ranges::find(kOfSwitches, name) == std::end(kOfSwitches)) {
+      counters[name] = count;
+    }
+  });
+  json["steps"] = steps;
+  json["counters"] = counters;
+  if (!has_switches) return;
   json["switches"] = Json::array();
   for (const auto& [t, name] : record.switches) {
     json["switches"].push_back({{"t", t}, {"name", name}});
@@ -95,7 +105,6 @@ void addNames(const Scene<double>& scene, Json& json) {
 }  // namespace
 
 std::string solveJson(const RunRecord& record, int indent) {
-  const Counters& c = record.counters;
   std::size_t place = 0;
   Json json;
   json["schema"] = "irk-solve-1";
@@ -117,20 +126,7 @@ std::string solveJson(const RunRecord& record, int indent) {
   if (!std::isnan(record.errors.accuracy)) json["reference_accuracy"] = record.errors.accuracy;
   if (!record.errors.remark.empty()) json["error_remark"] = record.errors.remark;
   addErrorBar(record.error_bar, json);
-  json["steps"] = {{"accepted", c.steps_accepted},
-                   {"rejected_error", c.steps_rejected_error},
-                   {"rejected_newton", c.steps_rejected_newton}};
-  json["counters"] = {{"residuals", c.residuals},
-                      {"dual_residuals", c.dual_residuals},
-                      {"jacobians", c.jacobians},
-                      {"factorizations", c.factorizations},
-                      {"mass_factorizations", c.mass_factorizations},
-                      {"filter_factorizations", c.filter_factorizations},
-                      {"solves", c.solves},
-                      {"filter_solves", c.filter_solves},
-                      {"newton_iterations", c.newton_iterations},
-                      {"newton_restarts", c.newton_restarts}};
-  addSwitches(record, json);
+  addCounters(record, json);
   for (const auto& [name, unit, start, change] : record.invariants)
     json["invariants"][name] = {{"change", change}, {"start", start}, {"unit", unit}};
   if (!record.detail.empty()) json["detail"] = record.detail;
