@@ -26,6 +26,7 @@ class FollowedModes : public ModesInStep<Real> {
   /// Carries out the switches that are due at the step's end; `before_` is the end before them.
   SwitchReport update(SolvedStep<Real>& step, Jumps jumps, StepResult& result) {
     before_ = step.to;
+    switches_.begin();
     const SwitchReport report = switches_.settle(step.to, jumps);
     if (report.index >= 0) result.switched = report.index;
     return report;

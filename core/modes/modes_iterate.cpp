@@ -40,6 +40,7 @@ class IteratedInStep final : public ModesInStep<Real> {
  private:
   // Returns false if no mode stays the same. `done_`: the switches carried out.
   bool iterate(SolvedStep<Real>& step, StepResult& result) {
+    switches_.begin();
     done_.clear();
     for (int i = 0;; ++i) {
       const std::size_t before = done_.size();

@@ -82,7 +82,7 @@ class Switches : public SwitchingFunctions<Real> {
   explicit Switches(const System<Real>& system)
       : SwitchingFunctions<Real>(system), executed_(static_cast<std::size_t>(system.sizes().switches)) {}
 
-  /// A new integration begins.
+  /// Forgets what was executed: for a new integration, and for another attempt of a step.
   void begin() { executed_.assign(executed_.size(), false); }
   /// The first switch that is due at `state`, for which g() was evaluated last, or -1.
   Index dueAt(const State<Real>& state);

@@ -128,5 +128,37 @@ TEST(Ignore, SeesAModeThatComesAndGoesInsideAStep) {
   }
 }
 
+/// x = t. The switch is due one unit of round-off before t = 1, so that it is due at t = 1 by round-off alone.
+struct DueByRoundOff {
+  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = T(1.0) - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1.0) : T(p.x[0] - std::nextafter(1.0, 0.0));
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1.0);
+  }
+};
+
+// A switch that was executed at a time is due there again by more than its round-off only. That holds within one
+// attempt of a step: what an integration before has executed says nothing.
+TEST(Steps, ForgetSwitchesOfTheIntegrationBefore) {
+  for (const auto mode : {Discontinuity::kIgnore, Discontinuity::kIterate, Discontinuity::kLocate}) {
+    Integrator<double> integrator(
+        makeSystem<double>(DueByRoundOff{}, {Formulation::kIndex2, ConstraintScaling::kOn, mode}),
+        makeTableau<double>("gauss_2"), fixedSteps(0.25));
+    for (int i = 0; i < 3; ++i) {
+      const auto solution = integrator.integrate(State<double>(DueByRoundOff{}.sizes()), 1);
+      ASSERT_EQ(solution.outcome, Outcome::kSuccess) << idOf(mode) << solution.detail;
+      EXPECT_EQ(solution.state.d[0], 1) << idOf(mode) << ", integration " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace irk::test
