@@ -10,8 +10,8 @@
 
 namespace irk {
 
-/// The linearized motion (u, v, x)' = J (u, v, x) at a point, with (a, k, z) = -D0^-1 (D1 (v, x) + D2 u) of
-/// Level::kAcceleration.
+/// The tolerances of a motion at a point, and the linearized motion (u, v, x)' = J (u, v, x) there, with (a, k, z) =
+/// -D0^-1 (D1 (v, x) + D2 u) of Level::kAcceleration.
 template <class Real>
 class Growth {
  public:
@@ -42,8 +42,8 @@ class Growth {
     double living = 0;      ///< the largest |lambda| of those that are further away than round-off
     bool vanished = false;  ///< some of those that grow and rest are not further away than round-off, and none is
   };
-  /// For the state of the last call of `rate`. A motion that rests for the time `since` and would have decayed to
-  /// round-off in it is not a living one: others drive it. Nothing if the eigenvectors are not known.
+  /// For the state of the last calls of `speed` and `rate`. A motion that rests for the time `since` and would have
+  /// decayed to round-off in it is not a living one: others drive it. Nothing if the eigenvectors are not known.
   std::optional<Motions> motions(const State<Real>& state, double time, double since);
 
  private:

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-/// Declares the functions of irk/options.h, which the file of the axis includes, for the axis E.
+/// Declares the functions of irk/options.h for the axis E. (options.cpp includes both, so that this file cannot.)
 #define IRK_DECLARE_AXIS(E)             \
   template <>                           \
   std::span<const Named<E>> named<E>(); \

@@ -73,8 +73,8 @@ struct Strategy<StageSolverKind> {
 template <>
 Catalogue<StageSolverKind>& catalogue<StageSolverKind>();
 
-/// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the
-/// kind cannot treat A (`eigen` with a defective A) or the pattern.
+/// Sparse where the pattern is; the coupled kinds have their own storage. Throws Misuse where the kind cannot treat A
+/// (see makeBlockForm) or the pattern.
 template <class Real>
 std::unique_ptr<StageSolver<Real>> makeStageSolver(StageSolverKind kind, const StageSolverSetup<Real>& setup);
 

@@ -93,7 +93,7 @@ void NewtonKernel::makeSolver() {
   }
   setup_.pattern = filter_setup_.pattern = pattern;
   solver_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, setup_), counters_);
-  filter_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, filter_setup_), counters_);
+  filter_.reset();
   rhs_ = ones_ = Mat<double>::Ones(system_->sizes().n(), scheme_.implicitStages());
 }
 
@@ -169,6 +169,10 @@ void NewtonKernel::solve() {
 }
 
 void NewtonKernel::factorizeFilter() {
+  if (!filter_) {
+    filter_ = std::make_unique<CountedStageSolver<double>>(makeStageSolver<double>(kind_, filter_setup_), counters_,
+                                                           SolverOf::kFilter);
+  }
   if (filter_->factorize(at_, h_) != Outcome::kSuccess) throw Misuse("the filter cannot be factorized");
 }
 

@@ -23,10 +23,8 @@ class NewtonKernel {
   /// sin 0 takes a fifth of the time of other sines.
   void moveTo(const State<double>& scene_state);
 
-  Index unknowns() const { return rhs_.rows(); }                           ///< of one stage
-  Index nonzeros() const { return at_.front().pattern->nonzeros(); }       ///< of D0, D1, D2 together
-  std::size_t directions() const { return differentiator_.directions(); }  ///< of a Jacobian
-  Index stages() const { return scheme_.implicitStages(); }                ///< stages with unknowns
+  Index unknowns() const { return rhs_.rows(); }             ///< of one stage
+  Index stages() const { return scheme_.implicitStages(); }  ///< stages with unknowns
 
   void residuals();  ///< r at all stages, in one call as in an iteration
   void jacobian();   ///< D0, D1, D2 at one point
@@ -39,9 +37,9 @@ class NewtonKernel {
   /// the one before. It takes longer than the sum of its parts timed alone, because there the processor begins a call
   /// before the last one has ended.
   void iteration();
-  /// One factorization of the filter of error estimates, a system of n unknowns, and one solution with it.
+  /// One factorization of the filter of error estimates, a system of n unknowns. Throws Misuse if it is singular.
   void factorizeFilter();
-  void solveFilter();
+  void solveFilter();  ///< requires `factorizeFilter` before
   /// The rest of an iteration: the stages' u, v, x, row scaling, the increment and its norm. The few operations of
   /// Newton's test are left out: they are part of `attempts`.
   void update();

@@ -139,8 +139,12 @@ class PhaseMeasurement {
     take(jacobian, [this] { kernel_.jacobian(); });
     take(factorization, [this] { kernel_.factorize(); });
     take(solve, [this] { kernel_.solve(); });
-    take(filter_factorization, [this] { kernel_.factorizeFilter(); });
-    take(filter_solve, [this] { kernel_.solveFilter(); });
+    if (counters_.filter_solves > 0) {
+      take(filter_factorization, [this] { kernel_.factorizeFilter(); });
+      take(filter_solve, [this] { kernel_.solveFilter(); });
+    } else {
+      filter_factorization = filter_solve = 0;
+    }
     take(update, [this] { kernel_.update(); });
     take(iteration_s_, [this] { kernel_.iteration(); });
     take(attempts_s_, [this] { attempts_ = kernel_.attempts(); });

@@ -33,11 +33,12 @@ constexpr bool isRecoverable(Outcome outcome) {
   return outcome == Outcome::kNewtonFailed || outcome == Outcome::kSingular;
 }
 
-/// The name in tables, CSV and JSON: `success`, `newton_failed`, ...
+/// In the order of Outcome.
 inline constexpr std::string_view kOutcomeNames[] = {
     "success",  "newton_failed",      "step_too_small", "max_steps", "timeout", "interrupted", "not_finite",
     "singular", "inconsistent_start", "chattering",     "stalled",   "drift",   "no_event",    "inaccurate"};
 static_assert(std::size(kOutcomeNames) == static_cast<std::size_t>(Outcome::kInaccurate) + 1);
+/// The name in tables, CSV and JSON: `success`, `newton_failed`, ...
 constexpr std::string_view name(Outcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
 
 }  // namespace irk

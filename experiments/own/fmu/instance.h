@@ -188,7 +188,7 @@ class FmuInstance {
   void* start_ = nullptr;  // the FMU's state after `begin`
 };
 
-/// Throws Misuse for an FMU that lacks a function of the standard or that cannot be instantiated.
+/// Throws Misuse for an FMU that lacks a function which is called or that cannot be instantiated.
 std::unique_ptr<FmuInstance> makeFmi2(const FmuLibrary& fmu);
 std::unique_ptr<FmuInstance> makeFmi3(const FmuLibrary& fmu);
 

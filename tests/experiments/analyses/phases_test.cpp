@@ -31,6 +31,11 @@ void expectShares(const Table& table) {
     EXPECT_GT(numberAt(table, row, "share_residual"), 0);
     EXPECT_GT(numberAt(table, row, "share_jacobian"), 0);
     EXPECT_GT(numberAt(table, row, "share_solve"), 0);
+    // With a fixed step nothing is estimated. With three stages the factors of `schur` contain the filter's.
+    const bool filters = textAt(table, row, "scene") == "slider_crank";
+    EXPECT_EQ(numberAt(table, row, "share_filter_solve") > 0, filters);
+    EXPECT_EQ(numberAt(table, row, "share_filter_factorization") > 0,
+              filters && textAt(table, row, "solver") == "coupled_dense");
   }
 }
 

@@ -60,7 +60,8 @@ class SceneProblem : public PeerProblem {
   const PeerJacobian& mass() const override { return mass_; }
   bool stopped() final;
 
-  /// Values of the components (u, v, x, z) as values of those of y, and `rest` for all others. Most forms have none.
+  /// Values of the components (u, v, x, z) as values of those of y, and `rest` for all others, of which most forms have
+  /// none.
   virtual Vec<double> perComponent(const Vec<double>& values, [[maybe_unused]] double rest) const { return values; }
   /// Makes the state consistent as far as the form needs it, finds pattern and mass, and returns y and y' in `to`.
   /// `new_run`: results are bitwise those of a new object.
