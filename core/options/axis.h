@@ -6,7 +6,8 @@
 
 #include "core/base/text.h"
 
-/// Declares the functions of irk/options.h for the axis E. (options.cpp includes both, so that this file cannot.)
+/// Declares named, axisName and parseId for the axis E. A file that uses these macros includes irk/options.h as well:
+/// options.cpp, which belongs to that header, uses this one, and the check of rooms allows no circle.
 #define IRK_DECLARE_AXIS(E)             \
   template <>                           \
   std::span<const Named<E>> named<E>(); \

@@ -6,6 +6,7 @@
 
 #include "core/stage_solvers/stage_solver.h"
 #include "tests/core/support.h"
+#include "tests/refusal.h"
 
 namespace irk::test {
 namespace {
@@ -129,6 +130,16 @@ TEST(StageSolver, SingularAndNotFiniteAreOutcomes) {
     D.d0.setConstant(std::nan(""));
     EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kNotFinite) << kind.id;
   }
+}
+
+// Without a form in its setup the solver makes one.
+TEST(StageSolver, EigenRefusesADefectiveTableau) {
+  const auto tableau = makeTableau<double>("lobatto_iiics_3");
+  const std::vector<int> powers(1, 0);
+  const auto message = refusal([&] {
+    makeStageSolver<double>(StageSolverKind::kEigen, {tableau.A, Pattern::dense(1), powers, Sizes{.nu = 0, .nx = 1}});
+  });
+  EXPECT_TRUE(contains(message, "defective"));
 }
 
 }  // namespace
