@@ -1,5 +1,5 @@
-// Inverses of matrices with a few rows. A product with the inverse is faster than substitution with factors, where
-// each row waits for the one before.
+// Inverses of matrices with up to 8 rows. A product with the inverse is faster than substitution with factors, where
+// each row waits for the one before. For more rows see core/linear/padded_inverse.h.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,8 @@
 
 namespace irk {
 
-/// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured for complex n = 8: the inverse
-/// takes no longer than the factors, since its loops are vector instructions, and a product a sixth of the time of the
-/// substitutions.
+/// Up to this many rows all columns are in registers. Measured for complex n = 8: the inverse takes no longer than the
+/// factors, since its loops are vector instructions, and a product a sixth of the time of the substitutions.
 inline constexpr Index kSmallInverse = 8;
 
 /// Scratch of `invert`: a real (Parts = 1) or complex (Parts = 2) n x n matrix by columns, without gaps; all real parts
@@ -44,6 +43,14 @@ struct RegisterOf<8> {
   using Numbers = double __attribute__((vector_size(64)));
   using Integers = std::int64_t __attribute__((vector_size(64)));
 };
+
+/// Smith's division without a branch; detail::inverse would be a call that saves and restores all columns.
+[[gnu::always_inline]] inline std::array<double, 2> inverseOf(double re, double im) {
+  const bool wide = std::abs(re) >= std::abs(im);
+  const double larger = wide ? re : im, ratio = (wide ? im : re) / larger;
+  const double scale = 1 / (larger + ratio * (wide ? im : re));
+  return wide ? std::array{scale, -ratio * scale} : std::array{ratio * scale, -scale};
+}
 
 /// The columns of a small matrix in vector registers. In memory, a vector load of a column that scalar instructions
 /// have just written would have to wait until they are complete.
@@ -162,13 +169,6 @@ class InRegisters {
       re_[k] = here ? a - zero : b * im - a * re;
       im_[k] = here ? b - zero : -(a * im + b * re);
     }
-  }
-  // Smith's division without a branch; detail::inverse would be a call that saves and restores all columns.
-  [[gnu::always_inline]] static std::array<double, 2> inverseOf(double re, double im) {
-    const bool wide = std::abs(re) >= std::abs(im);
-    const double larger = wide ? re : im, ratio = (wide ? im : re) / larger;
-    const double scale = 1 / (larger + ratio * (wide ? im : re));
-    return wide ? std::array{scale, -ratio * scale} : std::array{ratio * scale, -scale};
   }
   // Whether all numbers were finite when they were in the column of a pivot.
   [[gnu::always_inline]] bool isFinite() const {

@@ -10,7 +10,7 @@
 #include "core/linear/block_form.h"
 #include "core/linear/dense_lu.h"
 #include "core/linear/interleaved_lu.h"
-#include "core/linear/small_inverse.h"
+#include "core/linear/padded_inverse.h"
 #include "core/linear/sparse_lu.h"
 #include "core/stage_solvers/stage_solver.h"
 
@@ -40,9 +40,15 @@ class Decoupled final : public StageSolver<Real> {
   void solveBlocks();
   void solveBlock(std::size_t index);
   template <class Size>
-  void solveSmall(Real* rhs, Index stride, Size n);
+  void solveByInverses(Real* rhs, Index stride, Size n);
+  template <class Size>
+  void multiplyByInverse(std::size_t block, Size n);
   template <class Size>
   Outcome invertBlock(std::size_t index, Size n);
+  template <class Size>
+  Outcome invertSmallBlock(std::size_t index, Size n);
+  template <class Size>
+  Outcome invertPaddedBlock(std::size_t index, Size n);
   Real* inverseOf(std::size_t block) { return inverses_.col(static_cast<Index>(block)).data(); }
 
   StageSolverSetup<Real> setup_;
@@ -66,8 +72,10 @@ class Decoupled final : public StageSolver<Real> {
   bool gathered_ = false;          // together_ holds the present factors
   int apart_ = 0;                  // factorizations until the blocks are tried together again
   std::vector<Outcome> outcomes_;  // by block
-  bool small_;                     // blocks are inverted, see small_inverse.h; not for one stage, where it does not pay
-  Mat<Real> inverses_;             // a column for each block: its inverse, as a real matrix of size n or 2n
+  bool inverts_;                   // blocks are inverted
+  // A column for each block: its inverse, as small_inverse.h has it, there as a real matrix of size n or 2n, or as
+  // padded_inverse.h has it.
+  Mat<Real> inverses_;
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;

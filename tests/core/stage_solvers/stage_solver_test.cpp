@@ -73,10 +73,11 @@ TEST(StageSolver, SolvesTheMatrixWrittenOut) {
   const auto random = [&](Index rows, Index columns) {
     return Mat<double>(Mat<double>::NullaryExpr(rows, columns, [&] { return normal(generator); }));
   };
-  // Sizes below and above the limit up to which blocks are inverted.
+  // Sizes below and above the limits up to which blocks are inverted in registers (8) and in memory (32).
   for (const Sizes& sizes :
        {Sizes{.nu = 3, .nx = 2, .nz = 1, .constraints = 1}, Sizes{.nu = 4, .nx = 3, .nz = 1, .constraints = 1},
-        Sizes{.nu = 6, .nx = 4, .nz = 1, .constraints = 1}}) {
+        Sizes{.nu = 6, .nx = 4, .nz = 1, .constraints = 1}, Sizes{.nu = 10, .nx = 7, .nz = 1, .constraints = 1},
+        Sizes{.nu = 20, .nx = 12, .nz = 1, .constraints = 1}}) {
     const Index n = sizes.n();
     for (const char* method : {"radau_iia_5", "gauss_4", "lobatto_iiic_3", "radau_ia_2"}) {
       const auto tableau = makeTableau<double>(method);
@@ -120,15 +121,17 @@ TEST(StageSolver, SolvesTheMatrixWrittenOut) {
 }
 
 TEST(StageSolver, SingularAndNotFiniteAreOutcomes) {
-  const Sizes sizes{.nu = 0, .nx = 1, .nz = 1, .constraints = 0};
   const auto tableau = makeTableau<double>("radau_iia_2");
-  const std::vector<int> powers(2, 0);
-  for (const auto& kind : named<StageSolverKind>()) {
-    Linearization<double> D(Pattern::dense(2));
-    const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, powers, sizes});
-    EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kSingular) << kind.id;
-    D.d0.setConstant(std::nan(""));
-    EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kNotFinite) << kind.id;
+  for (const Index n : {2, 12, 40}) {
+    const Sizes sizes{.nu = 0, .nx = n - 1, .nz = 1, .constraints = 0};
+    const std::vector<int> powers(static_cast<std::size_t>(n), 0);
+    for (const auto& kind : named<StageSolverKind>()) {
+      Linearization<double> D(Pattern::dense(n));
+      const auto solver = makeStageSolver<double>(kind.value, {tableau.A, D.pattern, powers, sizes});
+      EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kSingular) << kind.id << " " << n;
+      D.d0.setConstant(std::nan(""));
+      EXPECT_EQ(solver->factorize({&D, 1}, 0.1), Outcome::kNotFinite) << kind.id << " " << n;
+    }
   }
 }
 
