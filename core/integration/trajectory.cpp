@@ -142,7 +142,7 @@ StepDecision Trajectory<Real>::decide(const AttemptResult& result, double h, dou
 template <class Real>
 double Trajectory<Real>::shorten(double h) {
   attempt_->forget();
-  if (++failures_ > 1) solveAlgebraicUnknowns();
+  if (++failures_ == 2) solveAlgebraicUnknowns();
   return controller_->afterFailure(h);
 }
 

@@ -11,14 +11,16 @@
 namespace irk {
 
 /// Vector registers of this many doubles.
-inline constexpr Index kLanes = std::clamp<Index>(Eigen::internal::packet_traits<double>::size, 2, 8);
+inline constexpr Index kPaddedLanes = std::clamp<Index>(Eigen::internal::packet_traits<double>::size, 2, 8);
 
-/// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured: inverse over factors of DenseLu,
-/// and product over substitutions, in time, for n = 9, 14, 20, 31:
-///   AVX-512, complex  0.9, 0.95, 0.85, 1.1   0.17, 0.11, 0.15, 0.15     real  0.9, 0.6, 0.8, 1.0   0.08, 0.05, 0.07,
-///   0.07 AVX2, complex     1.5, 1.5               0.5, 0.35                  real  1.4, 1.2             0.1, 0.1
-/// A Newton matrix is used three times and more as a rule. With SSE2 the inverse takes three times as long as factors.
-inline constexpr Index kMostInverted = kLanes < 4 ? kSmallInverse : 32;
+/// The most rows of a matrix here: from 33 on the inverse takes longer than the factors.
+inline constexpr Index kMostPadded = 32;
+
+/// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured for complex n = 9, 14, 20, 31 with
+/// AVX-512: the inverse takes 0.9, 0.95, 0.85, 1.1 of the time of DenseLu's factors, a product 0.17, 0.11, 0.15, 0.15
+/// of that of the substitutions. With AVX2, n = 9 and 14: 1.5 and 0.5, 1.5 and 0.35; a Newton matrix is used three
+/// times and more as a rule. Real matrices gain more. With SSE2 the inverse takes three times as long as the factors.
+inline constexpr Index kMostInverted = kPaddedLanes < 4 ? kSmallInverse : kMostPadded;
 
 /// Rows of a column in memory: n, and zeros up to a multiple of 8.
 constexpr Index paddedRows(Index n) { return (n + 7) / 8 * 8; }
@@ -37,7 +39,7 @@ class Padded {
   /// largest number in the rows that have had none, and rows and columns are put in order at the end.
   Outcome invert() {
     Rows row, free;
-    for (Index i = 0; i < kRows; ++i) row[index(i / kLanes)][index(i % kLanes)] = i;
+    for (Index i = 0; i < kRows; ++i) row[index(i / kPaddedLanes)][index(i % kPaddedLanes)] = i;
     for (std::size_t r = 0; r < kRegisters; ++r) free[r] = row[r] < n_;
     Column not_finite{};
     std::array<Index, index(kRows)> pivots;
@@ -59,7 +61,7 @@ class Padded {
       eliminate(k, pivot, here);
     }
     for (Index i = 0; i < n_; ++i) {
-      if (not_finite[index(i / kLanes)][index(i % kLanes)] != 0) return Outcome::kNotFinite;
+      if (not_finite[index(i / kPaddedLanes)][index(i % kPaddedLanes)] != 0) return Outcome::kNotFinite;
     }
     if (outcome == Outcome::kSuccess && !in_order) putInOrder(pivots);
     return outcome;
@@ -89,9 +91,9 @@ class Padded {
  private:
   static constexpr std::size_t index(Index i) { return static_cast<std::size_t>(i); }
   static constexpr Index kRows = 8 * Groups;
-  static constexpr std::size_t kRegisters = index(kRows / kLanes);
-  using Numbers = typename RegisterOf<kLanes>::Numbers;
-  using Integers = typename RegisterOf<kLanes>::Integers;
+  static constexpr std::size_t kRegisters = index(kRows / kPaddedLanes);
+  using Numbers = typename RegisterOf<kPaddedLanes>::Numbers;
+  using Integers = typename RegisterOf<kPaddedLanes>::Integers;
   using Column = std::array<Numbers, kRegisters>;
   using Rows = std::array<Integers, kRegisters>;
 
@@ -113,11 +115,11 @@ class Padded {
       }
       not_finite[r] += size * 0.0;
       size = free[r] ? size : Numbers{} - 1;
-      std::memcpy(sizes.data() + r * index(kLanes), &size, sizeof size);
+      std::memcpy(sizes.data() + r * index(kPaddedLanes), &size, sizeof size);
       most = most < size ? size : most;
     }
     double largest = most[0];
-    for (std::size_t i = 1; i < index(kLanes); ++i) largest = std::max(largest, most[i]);
+    for (std::size_t i = 1; i < index(kPaddedLanes); ++i) largest = std::max(largest, most[i]);
     if (!(largest > 0)) return -1;
     if (sizes[index(k)] == largest) return k;
     for (Index i = 0; i < n_; ++i) {
@@ -176,10 +178,10 @@ class Padded {
   double *re_, *im_;
 };
 
-/// Calls f(matrix) with the n x n matrix in `data`, n <= 32.
+/// Calls f(matrix) with the n x n matrix in `data`.
 template <int Parts, class F>
 decltype(auto) withPadded(double* data, Index n, const F& f) {
-  static_assert(kMostInverted <= 32);
+  static_assert(kMostPadded == 32);
   if (n <= 16) return f(Padded<Parts, 2>(data, n));
   if (n <= 24) return f(Padded<Parts, 3>(data, n));
   return f(Padded<Parts, 4>(data, n));
@@ -187,7 +189,7 @@ decltype(auto) withPadded(double* data, Index n, const F& f) {
 
 }  // namespace detail
 
-/// Replaces an n x n matrix, kSmallInverse < n <= kMostInverted, by its inverse. `data`: its columns as paddedRows and
+/// Replaces an n x n matrix, kSmallInverse < n <= kMostPadded, by its inverse. `data`: its columns as paddedRows and
 /// paddedSize say, a real one (Parts = 1) without imaginary parts; aligned as Eigen's vectors are. Returns kSuccess,
 /// kSingular or kNotFinite; after a failure the entries are unspecified.
 template <int Parts>

@@ -17,10 +17,6 @@ constexpr double kSameEigenvalue = 1e4;
 // Sparse blocks that have no common order of pivots are factorized one by one for so many factorizations.
 constexpr int kApart = 10;
 
-// Whether the blocks of s stages are inverted: with one stage of a few unknowns that does not pay.
-bool inverts(Index n, Index s) { return n <= kMostInverted && (s > 1 || n > kSmallInverse); }
-Index inverseSize(Index n) { return n <= kSmallInverse ? 4 * n * n : paddedSize(n); }
-
 }  // namespace
 
 template <class Real, template <class> class Lu>
@@ -28,8 +24,6 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
     : setup_(setup),
       form_(*setup_.form),
       outcomes_(form_.blocks.size()),
-      inverts_(kInverts && inverts(setup.pattern->n, setup.A.rows())),
-      inverses_(inverts_ ? inverseSize(setup.pattern->n) : 0, inverts_ ? std::ssize(form_.blocks) : 0),
       scales_(setup.pattern->n),
       Y_(setup.pattern->n, setup.A.rows()),
       D1Y_(setup.pattern->n, form_.diagonal ? 0 : setup.A.rows()),
@@ -54,7 +48,13 @@ Decoupled<Real, Lu>::Decoupled(const StageSolverSetup<Real>& setup)
       return;
     }
   }
-  if (!inverts_) makeFactors();
+  if constexpr (kInverts) {
+    if (BlockInverses::pay(setup.pattern->n, setup.A.rows())) {
+      inverses_.emplace(form_, setup_.row_powers, setup.pattern->n);
+      return;
+    }
+  }
+  makeFactors();
 }
 
 template <class Real, template <class> class Lu>
@@ -143,82 +143,10 @@ Outcome Decoupled<Real, Lu>::factorizeBlock(std::size_t index) {
     }
   };
   if constexpr (kInverts) {
-    if (inverts_) {
-      return withSize<kSmallInverse>(setup_.pattern->n, [&](auto n) { return invertBlock(index, n); });
-    }
+    if (inverses_) return inverses_->invert(index, D, h_, scales_);
   }
   return block.size == 1 ? factorized(real_lu_[lu_index_[index]], re)
                          : factorized(complex_lu_[lu_index_[index]], entry);
-}
-
-// Computes all entries of M first and scales rows afterwards: both loops become vector instructions.
-template <class Real, template <class> class Lu>
-template <class Size>
-Outcome Decoupled<Real, Lu>::invertBlock(std::size_t index, Size n) {
-  if constexpr (std::is_same_v<Size, Index>) {
-    return n > 0 ? invertPaddedBlock(index, n) : Outcome::kSuccess;
-  } else {
-    return invertSmallBlock(index, n);
-  }
-}
-
-template <class Real, template <class> class Lu>
-template <class Size>
-Outcome Decoupled<Real, Lu>::invertPaddedBlock(std::size_t index, Size n) {
-  const auto& block = form_.blocks[index];
-  const Index rows = paddedRows(n);
-  const Complex m1 = h_ * block.mu;
-  const Complex m2 = detail::product(m1, m1);
-  Real* const re = inverseOf(index);
-  const auto fill = [&](Real* plane, const auto& entry) {
-    for (Index j = 0; j < n; ++j) {
-      Real* const column = plane + j * rows;
-      for (Index i = 0; i < n; ++i) column[i] = scales_[i] * entry(j * n + i);
-      std::fill(column + n, column + rows, Real(0));
-    }
-  };
-  const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
-  fill(re, [=](Index k) { return d0[k] + m1.real() * d1[k] + m2.real() * d2[k]; });
-  if (block.size == 1) return invertPadded<1>(re, n);
-  fill(re + n * rows, [=](Index k) { return m1.imag() * d1[k] + m2.imag() * d2[k]; });
-  return invertPadded<2>(re, n);
-}
-
-// With M^-1 = P + i Q the solution of M (z1 + i sigma z2) = y1 + i sigma y2 is
-// [[P, -sigma Q], [Q / sigma, P]] (y1, y2).
-template <class Real, template <class> class Lu>
-template <class Size>
-Outcome Decoupled<Real, Lu>::invertSmallBlock(std::size_t index, Size n) {
-  const auto& block = form_.blocks[index];
-  Real* const inverse = inverseOf(index);
-  const Real *const d0 = at_->d0.data(), *const d1 = at_->d1.data(), *const d2 = at_->d2.data();
-  const Complex m1 = h_ * block.mu;
-  const Complex m2 = detail::product(m1, m1);
-  SmallMatrix split;
-  Real *const re = split.data(), *const im = re + n * n;
-  for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
-  for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
-  for (Index i = 0; i < n; ++i) {
-    if (setup_.row_powers[static_cast<std::size_t>(i)] == 0) continue;
-    for (Index k = i; k < 2 * n * n; k += n) re[k] *= scales_[i];
-  }
-  if (block.size == 1) {
-    const Outcome outcome = invert<1>(split, n);
-    std::copy_n(re, n * n, inverse);
-    return outcome;
-  }
-  const Outcome outcome = invert<2>(split, n);
-  const Real divided = Real(1) / block.sigma;
-  for (Index j = 0; j < n; ++j) {
-    const Real *const P = split.data() + j * n, *const Q = P + n * n;
-    Real *const left = inverse + j * 2 * n, *const right = left + 2 * n * n;
-    for (Index i = 0; i < n; ++i) {
-      left[i] = right[n + i] = P[i];
-      left[n + i] = divided * Q[i];
-      right[i] = -block.sigma * Q[i];
-    }
-  }
-  return outcome;
 }
 
 // Subtracts the contributions of the blocks to the right of this one, which are solved already, from its rows.
@@ -287,27 +215,6 @@ void Decoupled<Real, Lu>::solveBlock(std::size_t index) {
   }
 }
 
-// Multiplies the right-hand side of block k, in Y_, by the inverse.
-template <class Real, template <class> class Lu>
-template <class Size>
-void Decoupled<Real, Lu>::multiplyByInverse(std::size_t k, Size n) {
-  const auto& block = form_.blocks[k];
-  Real* const y = Y_.data() + block.start * n;
-  Real* const inverse = inverseOf(k);
-  if constexpr (!std::is_same_v<Size, Index>) {
-    constexpr Index kSize = Size::value;
-    if (block.size == 1) return multiplySmall(inverse, y, n);
-    multiplySmall(inverse, y, std::integral_constant<Index, 2 * kSize>());
-  } else {
-    if (block.size == 1) return multiplyPadded<1>(inverse, n, y);
-    Real* const z = y + n;
-    const Real divided = Real(1) / block.sigma;
-    for (Index i = 0; i < n; ++i) z[i] *= block.sigma;
-    multiplyPadded<2>(inverse, n, y, z);
-    for (Index i = 0; i < n; ++i) z[i] *= divided;
-  }
-}
-
 // Multiplies by the inverses of the blocks. One decision on n serves for all loops.
 template <class Real, template <class> class Lu>
 template <class Size>
@@ -316,7 +223,7 @@ void Decoupled<Real, Lu>::solveByInverses(Real* rhs, Index stride, Size n) {
   for (std::size_t k = form_.blocks.size(); k-- > 0;) {
     const auto& block = form_.blocks[k];
     if (!form_.diagonal) coupleRows(block, n);
-    multiplyByInverse(k, n);
+    inverses_->multiply(k, Y_.data() + block.start * n, n);
     if (form_.diagonal || k == 0) continue;
     for (Index j = block.start; j < block.start + block.size; ++j) multiply(j, n);
   }
@@ -331,13 +238,8 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
     const auto& block = form_.blocks[k];
     if (block.size != 1 || abs(Real(block.mu.real() - mu)) > most) continue;
     if constexpr (kInverts) {
-      if (inverts_) {
-        const Index n = Y_.rows();
-        if (n > kSmallInverse) {
-          multiplyPadded<1>(inverseOf(k), n, x);
-        } else {
-          withSize<kSmallInverse>(n, [&](auto size) { multiplySmall(inverseOf(k), x, size); });
-        }
+      if (inverses_) {
+        withSize<kSmallInverse>(Y_.rows(), [&](auto n) { inverses_->multiply(k, x, n); });
         return true;
       }
     }
@@ -355,7 +257,7 @@ bool Decoupled<Real, Lu>::solveReal(const Real& mu, Real* x) {
 template <class Real, template <class> class Lu>
 void Decoupled<Real, Lu>::solve(Eigen::Ref<Mat<Real>> rhs) {
   if constexpr (kInverts) {
-    if (inverts_) {
+    if (inverses_) {
       return withSize<kSmallInverse>(Y_.rows(), [&](auto n) { solveByInverses(rhs.data(), rhs.outerStride(), n); });
     }
   }

@@ -10,8 +10,8 @@
 #include "core/linear/block_form.h"
 #include "core/linear/dense_lu.h"
 #include "core/linear/interleaved_lu.h"
-#include "core/linear/padded_inverse.h"
 #include "core/linear/sparse_lu.h"
+#include "core/stage_solvers/block_inverses.h"
 #include "core/stage_solvers/stage_solver.h"
 
 namespace irk {
@@ -28,7 +28,7 @@ class Decoupled final : public StageSolver<Real> {
  private:
   using Complex = std::complex<Real>;
   static constexpr bool kSparse = std::is_same_v<Lu<Real>, SparseLu<Real>>;
-  static constexpr bool kInverts = !kSparse && std::is_same_v<Real, double>;  // blocks, if they are small
+  static constexpr bool kInverts = !kSparse && std::is_same_v<Real, double>;  // blocks, if they have few unknowns
   void makeFactors();
   bool factorizeTogether();
   Outcome factorizeBlock(std::size_t index);
@@ -41,15 +41,6 @@ class Decoupled final : public StageSolver<Real> {
   void solveBlock(std::size_t index);
   template <class Size>
   void solveByInverses(Real* rhs, Index stride, Size n);
-  template <class Size>
-  void multiplyByInverse(std::size_t block, Size n);
-  template <class Size>
-  Outcome invertBlock(std::size_t index, Size n);
-  template <class Size>
-  Outcome invertSmallBlock(std::size_t index, Size n);
-  template <class Size>
-  Outcome invertPaddedBlock(std::size_t index, Size n);
-  Real* inverseOf(std::size_t block) { return inverses_.col(static_cast<Index>(block)).data(); }
 
   StageSolverSetup<Real> setup_;
   const BlockForm<Real>& form_;  // of setup_
@@ -68,14 +59,11 @@ class Decoupled final : public StageSolver<Real> {
   std::optional<InterleavedLu> together_;  // all factors, if the blocks are sparse and do not couple
   std::vector<std::size_t> lane_block_;    // the lanes' blocks, real ones first
   std::vector<InterleavedLu::Lane> lanes_;
-  std::vector<Complex> lane_m_;    // h mu
-  bool gathered_ = false;          // together_ holds the present factors
-  int apart_ = 0;                  // factorizations until the blocks are tried together again
-  std::vector<Outcome> outcomes_;  // by block
-  bool inverts_;                   // blocks are inverted
-  // A column for each block: its inverse, as small_inverse.h has it, there as a real matrix of size n or 2n, or as
-  // padded_inverse.h has it.
-  Mat<Real> inverses_;
+  std::vector<Complex> lane_m_;            // h mu
+  bool gathered_ = false;                  // together_ holds the present factors
+  int apart_ = 0;                          // factorizations until the blocks are tried together again
+  std::vector<Outcome> outcomes_;          // by block
+  std::optional<BlockInverses> inverses_;  // instead of factors, where they are faster
   const Linearization<Real>* at_ = nullptr;
   Real h_{};
   Vec<Real> scales_;

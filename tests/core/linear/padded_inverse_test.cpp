@@ -43,7 +43,7 @@ Outcome invertComplex(ComplexMat& A) {
 
 template <class F>
 void forEachPaddedSize(const F& f) {
-  for (Index n = kSmallInverse + 1; n <= kMostInverted; ++n) {
+  for (Index n = kSmallInverse + 1; n <= kMostPadded; ++n) {
     SCOPED_TRACE(n);
     f(n);
   }
