@@ -208,6 +208,8 @@ class Integrator<Real>::Run {
     if (result.outcome != Outcome::kSuccess) {
       too_small_ = result.outcome == Outcome::kNewtonFailed ? Outcome::kStepTooSmall : result.outcome;
       h = trajectory_.shorten(size);
+      // The rates after a restart may be much larger than those that the size has grown with.
+      if (trajectory_.isFirstStep()) h = std::min(h, firstStep());
       return {};
     }
     const StepDecision decision = trajectory_.decide(result, size, resolvedSize());

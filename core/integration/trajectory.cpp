@@ -231,6 +231,7 @@ void Trajectory<Real>::takeOver(const CommittedStep<Real>& step) {
   std::swap(state_, next_);
   last_h_ = step.h;
   failures_ = 0;
+  first_ = false;
   ++counters_.steps_accepted;
   if (controller_) amounts_.look(next_, state_);
   round_off_ = std::max(round_off_, attempt.round_off);
@@ -308,6 +309,7 @@ Outcome Trajectory<Real>::settle() {
 // Forgets the steps before a change of mode, which predict nothing after it.
 template <class Real>
 void Trajectory<Real>::restart() {
+  first_ = true;
   attempt_->forget();
   jacobian_.forget();
   if (controller_) controller_->forget();

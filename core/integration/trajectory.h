@@ -53,6 +53,8 @@ class Trajectory {
 
   const State<Real>& state() const { return state_; }
   const State<Real>& next() const { return next_; }
+  /// Whether no step was accepted since the start or the last restart.
+  bool isFirstStep() const { return first_; }
   /// Passes time i of the system's `times`: sets the mode and the state after it and restarts.
   [[nodiscard]] Outcome passTime(Index i);
   /// Sets the time to t_end, after a switch so close to it that the rest is too short for a step.
@@ -118,6 +120,7 @@ class Trajectory {
   const char* last_rejection_ = nullptr;  // cause of the last rejection; null: there was none
   bool determined_ = false;               // at the last start (a, k, z) followed from (u, v, x)
   int failures_ = 0;                      // since the last accepted step
+  bool first_ = true;                     // no step was accepted since the start or the last restart
   bool solved_ = false;                   // a step of this integration, with whose error a message may name a component
 };
 

@@ -191,5 +191,34 @@ TEST(Times, AnInputThatVanishesAtAllNodesIsSeen) {
   }
 }
 
+/// A current that charges a capacitor with a diode: x' = i - (exp(40 x) - 1), with i = 1e6 from t = 10 on, 1 before.
+struct SwitchedOn {
+  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0, .discrete = 1, .switches = 0}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::exp;
+    r.x[0] = p.d[0] - (exp(40.0 * p.x[0]) - 1.0) - p.k[0];
+  }
+  std::vector<double> times() const { return {10}; }
+  template <class T>
+  void onTime(Index, const Point<T>&, T* d) const {
+    d[0] = 1e6;
+  }
+};
+
+// The size that steps have grown to before the time is 1e10 times too large behind it: halving and fifths of it would
+// fail a dozen times.
+TEST(Times, AFirstStepThatFailsIsFollowedByOneOfTheNewRates) {
+  State<double> start(SwitchedOn{}.sizes());
+  start.x[0] = 0.01;
+  start.d[0] = 1;
+  Integrator<double> integrator(makeSystem<double>(SwitchedOn{}), makeTableau<double>("radau_iia_3"), embedded(1e-6));
+  const auto solution = integrator.integrate(start, 100);
+  ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
+  EXPECT_NEAR(solution.state.x[0], std::log(1e6 + 1) / 40, 1e-6);
+  EXPECT_GE(solution.counters.steps_rejected_newton, 1);
+  EXPECT_LE(solution.counters.steps_rejected_newton, 3);
+}
+
 }  // namespace
 }  // namespace irk::test
