@@ -85,7 +85,9 @@ inline constexpr Constant kLargestBarRoundOff{1e-9, "bar.round_off", "... beyond
 inline constexpr Constant kSafety{0.9, "step.safety", "The part of the step that the error, or a switch in it, allows.",
                                   "HW II (IV.8), RADAU"};
 inline constexpr Constant kShrinkAtMost{
-    0.2, "step.shrink", "A step shrinks at most by this factor, and the first is at most this part of the interval ...",
+    0.2, "step.shrink",
+    "A step shrinks at most by this factor, but for the first after a restart; the very first is at most this part of "
+    "the interval ...",
     "RADAU: 1 / FACL"};
 inline constexpr Constant kGrowAtMost{8, "step.grow", "... and grows at most by this one.", "RADAU: 1 / FACR"};
 inline constexpr Constant kErrorFloor{0.01, "step.error_floor", "Gustafsson's rule counts no error below this.",
@@ -100,7 +102,9 @@ inline constexpr Constant kBarredSteps{10, "step.barred", "A size at which Newto
                                        "the error estimate does not show such failures"};
 inline constexpr Constant kGammaMin{0.9, "step.paper_gamma", "'paper': the least gamma of (6.3).",
                                     "the paper's text breaks off; far below 1 it prevents growth at round-off"};
-inline constexpr Constant kFirstChange{0.01, "step.first_change", "The first step changes the solution by this part.",
+inline constexpr Constant kFirstChange{0.01, "step.first_change",
+                                       "The first step, and after a restart one that follows a failed first step, "
+                                       "changes the solution by this part.",
                                        "HW I (II.4)"};
 inline constexpr Constant kSmallestStep{16, "step.smallest", "A step has at least so many eps |t|.",
                                         "below, t + c h does not resolve the stages"};

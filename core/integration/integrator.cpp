@@ -9,9 +9,9 @@
 #include "core/base/in_use.h"
 #include "core/control/stall_detector.h"
 #include "core/integration/backward.h"
-#include "core/integration/grid.h"
 #include "core/integration/memory_check.h"
 #include "core/integration/rules.h"
+#include "core/integration/step_sizes.h"
 #include "core/integration/stop_rule.h"
 #include "core/integration/trajectory.h"
 #include "core/options/fixed_steps.h"
@@ -208,8 +208,9 @@ class Integrator<Real>::Run {
     if (result.outcome != Outcome::kSuccess) {
       too_small_ = result.outcome == Outcome::kNewtonFailed ? Outcome::kStepTooSmall : result.outcome;
       h = trajectory_.shorten(size);
-      // The rates after a restart may be much larger than those that the size has grown with.
-      if (trajectory_.isFirstStep()) h = std::min(h, firstStep());
+      // The rates after a restart may be much larger than those that the size has grown with. The smallest size is
+      // tried before the run ends.
+      if (trajectory_.isFirstStep()) h = std::min(h, std::max(sizeByRates(state()), least));
       return {};
     }
     const StepDecision decision = trajectory_.decide(result, size, resolvedSize());
@@ -254,15 +255,10 @@ class Integrator<Real>::Run {
     return {};
   }
 
-  // HW I (II.4), first guess: the solution moves by a hundredth of its size.
   double firstStep() const {
     if (options_.step.h > 0) return std::min(options_.step.h, length_);
-    const auto size = [](const auto& y) { return static_cast<double>(Real(y.norm())); };
-    const State<Real>& s = state();
-    const double y = size(s.u) + size(s.v) + size(s.x);
-    const double dy = size(s.v) + size(s.a()) + size(s.k());
-    const double h = y > 1e-5 && dy > 1e-5 ? kFirstChange * y / dy : 1e-4 * length_;
-    return std::min(h, kShrinkAtMost * length_);
+    const double h = sizeByRates(state());
+    return std::min(std::isfinite(h) ? h : 1e-4 * length_, kShrinkAtMost * length_);
   }
 
   // After a rejection with a switch in the step, the next step ends just before the switch. The step over the switch is

@@ -216,7 +216,6 @@ template <class Real>
 void requireLegal(const IntegratorOptions& options, const System<Real>& system, const SchemeList<Real>& schemes,
                   std::size_t start) {
   Facts facts(options);
-  require(kOptions, facts);
   facts.members = schemes.size();
   facts.start = start;
   describe(system, facts);
@@ -231,8 +230,8 @@ template <class Real>
 IntegratorOptions legalOptions(IntegratorOptions options, const System<Real>& system, const SchemeList<Real>& schemes,
                                std::size_t start) {
   validate(options);
+  requireLegal(options);
   if (hasFixedSteps(options.step)) {
-    requireLegal(options);
     options.step.estimate = ErrorEstimate::kNone;
     options.tolerances = {1, 1, NormKind::kMixed};
     options.newton.kappa = std::numeric_limits<double>::min();

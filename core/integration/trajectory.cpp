@@ -106,6 +106,7 @@ bool Trajectory<Real>::satisfyConstraints() {
     if (!(moved <= kAllowedDrift * norm_.weights()[i])) return false;
   }
   std::swap(state_, next_);
+  if (failures_ > 1) solveAlgebraicUnknowns();
   return true;
 }
 

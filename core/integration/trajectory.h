@@ -35,8 +35,8 @@ class Trajectory {
 
   /// Tries a step of size h. `next()` is then the state at its end; `state()` does not change.
   AttemptResult attempt(const Real& h);
-  /// After a failure that a shorter step may avoid: forgets what start values were predicted from, and from the second
-  /// failure in a row on solves for the algebraic unknowns of state(); returns the size to try next.
+  /// After a failure that a shorter step may avoid: forgets what start values were predicted from, and at the second
+  /// failure since the last accepted step solves for the algebraic unknowns of state(); returns the size to try next.
   double shorten(double h);
   /// The controller's decision on the tried step of size h; `resolved`: the size of the shortest step that time
   /// resolves. Must not be called with fixed steps.

@@ -10,16 +10,17 @@
 
 namespace irk {
 
-/// Vector registers of this many doubles.
+/// Numbers in a vector register.
 inline constexpr Index kPaddedLanes = std::clamp<Index>(Eigen::internal::packet_traits<double>::size, 2, 8);
 
-/// The most rows of a matrix here: from 33 on the inverse takes longer than the factors.
+/// The most rows of a matrix here. At 31 rows the inverse takes 1.1 times as long as the factors.
 inline constexpr Index kMostPadded = 32;
 
-/// Blocks of the Newton matrix with up to this many unknowns are inverted. Measured for complex n = 9, 14, 20, 31 with
-/// AVX-512: the inverse takes 0.9, 0.95, 0.85, 1.1 of the time of DenseLu's factors, a product 0.17, 0.11, 0.15, 0.15
-/// of that of the substitutions. With AVX2, n = 9 and 14: 1.5 and 0.5, 1.5 and 0.35; a Newton matrix is used three
-/// times and more as a rule. Real matrices gain more. With SSE2 the inverse takes three times as long as the factors.
+/// Blocks of the Newton matrix with up to this many unknowns are inverted, but see BlockInverses::pay. Measured for
+/// complex matrices, inverse over DenseLu's factors, and product over substitutions: with AVX-512, n = 9: 0.9 and 0.17,
+/// 14: 0.95 and 0.11, 20: 0.85 and 0.15, 31: 1.1 and 0.15; with AVX2, n = 9: 1.5 and 0.5, 14: 1.5 and 0.35. Real
+/// matrices gain more. A Newton matrix is used at least three times as a rule. With registers of two numbers (SSE2) the
+/// inverse takes three times as long as the factors.
 inline constexpr Index kMostInverted = kPaddedLanes < 4 ? kSmallInverse : kMostPadded;
 
 /// Rows of a column in memory: n, and zeros up to a multiple of 8.
@@ -36,7 +37,8 @@ class Padded {
   Padded(double* data, Index n) : n_(n), re_(data), im_(data + n * kRows) {}
 
   /// Gauss-Jordan with partial pivoting; see irk::invertPadded. Rows are not exchanged: the pivot of a column is the
-  /// largest number in the rows that have had none, and rows and columns are put in order at the end.
+  /// largest number in the rows that were not the pivot's row of an earlier column, and rows and columns are put in
+  /// order at the end.
   Outcome invert() {
     Rows row, free;
     for (Index i = 0; i < kRows; ++i) row[index(i / kPaddedLanes)][index(i % kPaddedLanes)] = i;
@@ -97,6 +99,8 @@ class Padded {
   using Column = std::array<Numbers, kRegisters>;
   using Rows = std::array<Integers, kRegisters>;
 
+  static_assert(EIGEN_DEFAULT_ALIGN_BYTES >= sizeof(Numbers));
+  // gcc and clang let a vector alias its elements.
   static Numbers& at(double* plane, Index column, std::size_t r) {
     return reinterpret_cast<Numbers*>(plane + column * kRows)[r];
   }
@@ -190,14 +194,14 @@ decltype(auto) withPadded(double* data, Index n, const F& f) {
 }  // namespace detail
 
 /// Replaces an n x n matrix, kSmallInverse < n <= kMostPadded, by its inverse. `data`: its columns as paddedRows and
-/// paddedSize say, a real one (Parts = 1) without imaginary parts; aligned as Eigen's vectors are. Returns kSuccess,
-/// kSingular or kNotFinite; after a failure the entries are unspecified.
+/// paddedSize say, a real one (Parts = 1) without imaginary parts; aligned to a register, as Eigen's vectors are.
+/// Returns kSuccess, kSingular or kNotFinite; after a failure the entries are unspecified.
 template <int Parts>
 [[nodiscard]] Outcome invertPadded(double* data, Index n) {
   return detail::withPadded<Parts>(data, n, [](auto matrix) { return matrix.invert(); });
 }
 
-/// y := A y for a real matrix; y + i z := A (y + i z) for a complex one. n numbers each.
+/// Reads `data` only: y := A y for a real matrix; y + i z := A (y + i z) for a complex one. n numbers each.
 template <int Parts>
 void multiplyPadded(double* data, Index n, double* y, double* z = nullptr) {
   detail::withPadded<Parts>(data, n, [=](const auto& matrix) { matrix.multiply(y, z); });

@@ -17,7 +17,7 @@ BlockInverses::BlockInverses(const BlockForm<double>& form, std::span<const int>
 Outcome BlockInverses::invert(std::size_t block, const Linearization<double>& D, double h, const Vec<double>& scales) {
   return withSize<kSmallInverse>(n_, [&](auto n) {
     if constexpr (std::is_same_v<decltype(n), Index>) {
-      return n > 0 ? invertPaddedBlock(block, D, h, scales) : Outcome::kSuccess;
+      return invertPaddedBlock(block, D, h, scales);
     } else {
       return form_.blocks[block].size == 1 ? invertSmallBlock<1>(block, D, h, scales, n)
                                            : invertSmallBlock<2>(block, D, h, scales, n);

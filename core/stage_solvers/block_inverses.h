@@ -15,9 +15,9 @@ namespace irk {
 /// only. Different threads may work on different blocks.
 class BlockInverses {
  public:
-  /// Whether inverses of n x n blocks for s stages are faster than factors. With one stage of a few unknowns they are
-  /// not.
-  static bool pay(Index n, Index s) { return n <= kMostInverted && (s > 1 || n > kSmallInverse); }
+  /// Whether inverses of n x n blocks for s stages are faster than factors. With one stage and up to three unknowns
+  /// they are not.
+  static bool pay(Index n, Index s) { return n > 0 && n <= kMostInverted && (s > 1 || n > 3); }
 
   /// Keeps a reference to the form and a view of the powers, see StageSolverSetup.
   BlockInverses(const BlockForm<double>& form, std::span<const int> row_powers, Index n);
@@ -25,8 +25,8 @@ class BlockInverses {
   /// Inverts M of this block, whose rows are multiplied by `scales`. Returns kSuccess, kSingular or kNotFinite.
   [[nodiscard]] Outcome invert(std::size_t block, const Linearization<double>& D, double h, const Vec<double>& scales);
 
-  /// Replaces y, the n numbers of a real block or the 2 n of (y1, y2), M (z1 + i sigma z2) = y1 + i sigma y2, by the
-  /// solution. Size: Index, or a constant up to kSmallInverse.
+  /// Replaces y by the solution z. Real block: n numbers, M z = y. Complex pair: y = (y1, y2) and z = (z1, z2), 2 n
+  /// numbers, M (z1 + i sigma z2) = y1 + i sigma y2. Size: Index, or a constant up to kSmallInverse.
   template <class Size>
   [[gnu::always_inline]] void multiply(std::size_t block, double* y, Size n) {
     const auto& of = form_.blocks[block];

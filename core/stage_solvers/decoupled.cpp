@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <type_traits>
 
 #include "core/base/small_product.h"
 #include "core/base/threads.h"

@@ -34,7 +34,7 @@ class Decoupled final : public StageSolver<Real> {
   Outcome factorizeBlock(std::size_t index);
   template <class Size>
   void coupleRows(const typename BlockForm<Real>::Block& block, Size n);
-  // Not inlined: in this context the compiler would contract other products and sums of `solveSmall`.
+  // Not inlined: in this context the compiler would contract other products and sums of `solveByInverses`.
   template <class Size>
   [[gnu::noinline]] void multiply(Index column, Size n);
   void solveBlocks();

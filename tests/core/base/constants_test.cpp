@@ -48,6 +48,7 @@ TEST(Constants, NoOthersDecide) {
                                     "kNever",
                                     "kSameEigenvalue",
                                     "kAmplificationLimit",
+                                    "kAboutZero",
                                     "kInner",
                                     "kSamePoint",
                                     "kUnknown",
