@@ -2,10 +2,33 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "irk/problem.h"
 
 namespace irk::test {
+
+/// What a run begins with: each group whole, or not at all, and then it is 0.
+struct Given {
+  double t = 0;
+  std::vector<double> u = {}, v = {}, x = {}, d = {};
+};
+inline State<double> startOf(const Sizes& sizes, const Given& given) {
+  State<double> s(sizes);
+  s.t = given.t;
+  const auto fill = [](Vec<double>& to, const std::vector<double>& from) {
+    if (!from.empty()) to = ConstVec<double>(from.data(), static_cast<Index>(from.size()));
+  };
+  fill(s.u, given.u);
+  fill(s.v, given.v);
+  fill(s.x, given.x);
+  fill(s.d, given.d);
+  return s;
+}
+template <class P>
+State<double> startOf(const P& problem, const Given& given) {
+  return startOf(problem.sizes(), given);
+}
 
 /// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t, with the solution y = phi. Nonlinear and non-autonomous, so every
 /// damaged tableau loses order.
@@ -116,18 +139,10 @@ struct BouncingBall {
   void jump(Index, const Point<T>& p, T*, T* v, T*) const {
     v[0] = -e * p.v[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {1}}); }
 };
 
-inline State<double> decayStart() {
-  State<double> s(Decay{}.sizes());
-  s.x[0] = 1;
-  return s;
-}
+inline State<double> decayStart() { return startOf(Decay{}, {.x = {1}}); }
 template <class Real>
 State<Real> pendulumStart() {
   State<Real> s(CartesianPendulum{}.sizes());

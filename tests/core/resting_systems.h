@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "irk/problem.h"
+#include "tests/core/problems.h"
 
 namespace irk::test {
 
@@ -17,11 +17,7 @@ struct Spiral {
     r.x[0] = growth * x - frequency * y - p.k[0];
     r.x[1] = frequency * x + growth * y - p.k[1];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x << 1 + 1e-6, 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.x = {1 + 1e-6, 1}}); }
 };
 
 /// An oscillator of frequency 1 beside x' = L sin(x - 1), which leaves 1 for 1 + pi.
@@ -34,12 +30,7 @@ struct RestBesideMotion {
     using std::sin;
     r.x[0] = L * sin(p.x[0] - 1.0) - p.k[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    s.x[0] = 1 + 1e-9;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {1}, .x = {1 + 1e-9}}); }
 };
 
 }  // namespace irk::test

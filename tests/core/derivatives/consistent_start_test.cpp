@@ -144,9 +144,7 @@ TEST(ConsistentStart, ConstraintsAreJudgedByTheScaleWhereTheStartIsZero) {
   const auto outcome = [](double v, double scale) {
     const PendulumIn problem{1, 1};
     const auto system = makeSystem<double>(problem, {});
-    State<double> state(problem.sizes());
-    state.u << 1, 0;
-    state.v << v, 0;
+    State<double> state = startOf(problem, {.u = {1, 0}, .v = {v, 0}});
     Vec<double> scales(5);
     scales << 1, 1, scale, scale, 1;
     return ConsistentStart<double>(*system, DerivativeSource::kAutomatic, false, nullptr, scales).apply(state).outcome;

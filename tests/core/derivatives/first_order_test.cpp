@@ -89,8 +89,7 @@ struct Springs {
 
 // A constant M is factorized before the start in both forms.
 TEST(FirstOrder, LeavesAConstantMassAlone) {
-  State<double> start(Springs{}.sizes());
-  start.u << 1, 0.5;
+  const auto start = startOf(Springs{}, {.u = {1, 0.5}});
   for (const auto formulation : {Formulation::kFirstOrder, Formulation::kFirstOrderPerStep}) {
     EXPECT_EQ(firstOrderRun(Springs{}, start, formulation, adaptive(1e-6)).factorizations, 0) << idOf(formulation);
   }

@@ -29,8 +29,7 @@ TEST(Defect, FindsAPulseThatLastsAFiftiethOfTheInterval) {
     for (const bool doubles : {false, true}) {
       for (double centre = 0.2; centre < 1.9; centre += 0.017) {
         const UndeclaredPulse pulse{centre, 0.04};
-        State<double> start(pulse.sizes());
-        start.x[0] = 1;
+        const auto start = startOf(pulse, {.x = {1}});
         const auto options = doubles ? adaptive(1e-4) : embedded(1e-4);
         const auto s = integrate<double>(pulse, start, 2, makeTableau<double>(method), options);
         ++runs;
@@ -69,8 +68,7 @@ TEST(Defect, LooksAgainInANewMode) {
     for (const bool doubles : {false, true}) {
       for (double centre = 1.03; centre < 1.4; centre += 0.007) {
         const PulseBehindASwitch problem{{centre, 0.04}};
-        State<double> start(problem.sizes());
-        start.x[0] = 1;
+        const auto start = startOf(problem, {.x = {1, 0}});
         const auto options = doubles ? adaptive(1e-4) : embedded(1e-4);
         const auto s = integrate<double>(problem, start, 2, makeTableau<double>(method), options);
         ++runs;
@@ -87,8 +85,7 @@ TEST(Defect, FindsShorterPulsesWithMoreLooks) {
   int missed_with_few = 0, missed_with_many = 0;
   for (double centre = 0.2; centre < 1.9; centre += 0.017) {
     const UndeclaredPulse pulse{centre, 0.008};
-    State<double> start(pulse.sizes());
-    start.x[0] = 1;
+    const auto start = startOf(pulse, {.x = {1}});
     for (const std::int64_t looks : {10, 500}) {
       IntegratorOptions options = embedded(1e-4);
       options.step.looks = looks;
@@ -110,11 +107,7 @@ struct ShortForce {
     const T d = p.u[0] - 1.0;
     r.u[0] = (d > T(-width) && d < T(width) ? T(force) : T(0.0)) - p.a[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.v[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.v = {1}}); }
   double finalSpeed() const {
     const double squared = 1 + 4 * width * force;
     return squared > 0 ? std::sqrt(squared) : -1;

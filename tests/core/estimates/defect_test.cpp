@@ -68,8 +68,7 @@ TEST(Defect, IsTheFilteredResidualOfTheContinuousSolution) {
   for (const char* method : {"radau_iia_3", "lobatto_iiic_4", "gauss_3"}) {
     const double tol = 1, h = 0.4;
     SolvedStepOf<ForcedPair> step({}, method, tol);
-    State<double> start(ForcedPair{}.sizes());
-    start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+    const auto start = startOf(ForcedPair{}, {.u = {0.3}, .v = {-0.2}, .x = {0.7}});
     step.solve(start, h);
     const Mat<double>& W = step.stepper.stages().W;
     const Vec<double>& c = step.scheme.c;
@@ -136,8 +135,7 @@ TEST(Defect, OfASmoothMotionIsBelowTheEmbeddedEstimate) {
 TEST(Defect, OfAStepIsTheLargestOfItsPoints) {
   for (const char* method : {"radau_iia_3", "lobatto_iiic_4", "gauss_3"}) {
     SolvedStepOf<ForcedPair> step({}, method, 1e-6);
-    State<double> start(ForcedPair{}.sizes());
-    start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+    const auto start = startOf(ForcedPair{}, {.u = {0.3}, .v = {-0.2}, .x = {0.7}});
     step.solve(start, 0.4);
     const auto together = step.defect.largest(step.from, step.stepper.stages(), step.to);
     ASSERT_EQ(together.outcome, Outcome::kSuccess);
@@ -161,8 +159,7 @@ TEST(Defect, OfAStepIsTheLargestOfItsPoints) {
 TEST(Defect, LooksAtTheEndWhereNoStageIs) {
   const double h = 0.4;
   SolvedStepOf<ForcedPair> step({}, "gauss_3", 1);
-  State<double> start(ForcedPair{}.sizes());
-  start.u[0] = 0.3, start.v[0] = -0.2, start.x[0] = 0.7;
+  const auto start = startOf(ForcedPair{}, {.u = {0.3}, .v = {-0.2}, .x = {0.7}});
   step.solve(start, h);
   const Mat<double>& W = step.stepper.stages().W;
   Vec<double> w = Vec<double>::Zero(2);
@@ -198,9 +195,7 @@ struct CountedPair {
 TEST(Defect, LooksOnceAtAnIntervalThatItHasSeen) {
   long evaluated = 0;
   SolvedStepOf<CountedPair> step(CountedPair{&evaluated}, "radau_iia_3", 1e-6);
-  State<double> start(step.system->sizes());
-  start.u[0] = 0.3, start.x[0] = 0.7;
-  step.solve(start, 0.01);
+  step.solve(startOf(step.system->sizes(), {.u = {0.3}, .x = {0.7}}), 0.01);
   const auto pointsOf = [&] {
     const long before = evaluated;
     const auto result = step.defect.largest(step.from, step.stepper.stages(), step.to);

@@ -28,12 +28,7 @@ struct FirstOrderOscillators {
 };
 
 // A start at t > 0: at t = 0 every other derivative of the solution is zero.
-State<double> movingRiccati() {
-  State<double> start = riccatiStart<double>();
-  start.t = 0.7;
-  start.x[0] = 1.5 + std::sin(0.7);
-  return start;
-}
+State<double> movingRiccati() { return startOf(Riccati{}, {.t = 0.7, .x = {1.5 + std::sin(0.7)}}); }
 
 /// One step from `start`, and the estimate of its error.
 template <class P>
@@ -212,8 +207,7 @@ TEST(EmbeddedEstimate, OfAFirstStepOverATransientRejectsNothing) {
   for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
     IntegratorOptions o = embedded(1e-4);
     o.step.h = 0.1;
-    State<double> start(Relaxing{}.sizes());
-    start.x[0] = 1 + 4e-3;
+    const auto start = startOf(Relaxing{}, {.x = {1 + 4e-3}});
     const auto s = integrate<double>(Relaxing{}, start, 0.1, makeTableau<double>(method), o);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_EQ(s.counters.steps_accepted, 1) << method;

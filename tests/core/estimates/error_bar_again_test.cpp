@@ -20,10 +20,8 @@ struct DecayAbove {
 
 // Whether the bar of a result at t = 1 that is wrong by `error` is measured again.
 bool isMeasuredAgain(double error, double tolerance, double offset = 0) {
-  State<double> start({.nx = 1}), result({.nx = 1});
-  start.x[0] = offset + 1;
-  result.t = 1;
-  result.x[0] = offset + std::exp(-1) + error;
+  const auto start = startOf({.nx = 1}, {.x = {offset + 1}});
+  const auto result = startOf({.nx = 1}, {.t = 1, .x = {offset + std::exp(-1) + error}});
   const auto options = adaptive(tolerance);
   auto second = secondOf(makeSystem<double>(DecayAbove{offset}), options);
   Solution<double> other;
@@ -57,11 +55,8 @@ struct FastOscillator {
 
 TEST(ErrorBar, TheMotionOfAComponentIsItsLargestDistanceFromTheStart) {
   const auto again = [](double error_u, double error_v) {
-    State<double> start({.nu = 1});
-    start.u[0] = 1;
-    State<double> result = start;
-    result.t = 2 * std::acos(-1.0);
-    result.u[0] += error_u, result.v[0] += error_v;
+    const auto start = startOf({.nu = 1}, {.u = {1}});
+    const auto result = startOf({.nu = 1}, {.t = 2 * std::acos(-1.0), .u = {1 + error_u}, .v = {error_v}});
     const auto options = adaptive(1e-3);
     auto second = secondOf(makeSystem<double>(FastOscillator{}), options);
     Solution<double> other;

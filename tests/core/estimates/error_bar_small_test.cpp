@@ -39,9 +39,8 @@ struct SlowPassage {
 TEST(ErrorBarOfSmallComponents, CoversWhatComesBackFromFarBelowTheTolerance) {
   for (const double turn : {0.0, 4.0, 9.0}) {  // with 9, r falls to 2.6e-18
     const SlowPassage problem{turn};
-    State<double> start(problem.sizes());
     const double r0 = turn == 0 ? 1e-9 : 1;
-    start.x[0] = r0;
+    const auto start = startOf(problem, {.x = {r0, 0}});
     const double t_end = turn == 0 ? 6.4 : 2 * turn;  // r is about 1
     for (const NormKind norm : {NormKind::kMixed, NormKind::kAbsolute}) {
       for (const double tol : {1e-3, 1e-5, 1e-8}) {
@@ -69,8 +68,7 @@ struct Upright {
 
 TEST(ErrorBarOfSmallComponents, CoversAnUnstableEquilibriumInSecondOrderForm) {
   const Upright problem;
-  State<double> start(problem.sizes());
-  start.u[0] = 1e-9;  // and u' = 0: one of the components begins with zero
+  const auto start = startOf(problem, {.u = {1e-9}});  // and u' = 0: one of the components begins with zero
   const double t_end = 2.1, turns = 10 * t_end;
   for (const double tol : {1e-3, 1e-4}) {
     const MeasuredRun run = measuredRun(problem, start, t_end, embedded(tol));
@@ -98,8 +96,7 @@ TEST(ErrorBarOfSmallComponents, AVelocityAtARestAwayFromZeroIsNoneOfThem) {
     for (const double deviation : {1e-9, -1e-12, 1e-14}) {
       for (const double tol : {1e-4, 1e-7}) {
         const DampedPendulum problem{1.5, damping};
-        State<double> start(problem.sizes());
-        start.u[0] = problem.rest + deviation;
+        const auto start = startOf(problem, {.u = {problem.rest + deviation}});
         const MeasuredRun run = measuredRun(problem, start, 40, embedded(tol));
         EXPECT_EQ(run.bar.remark, "") << damping << ' ' << deviation << ' ' << tol;
         EXPECT_LT(run.steps, 5000) << damping << ' ' << deviation << ' ' << tol;
@@ -121,8 +118,7 @@ struct FastAndSmall {
 
 // It would take 1e6 steps. The effort has a limit, and the bar is then that of the second integration.
 TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
-  State<double> start(FastAndSmall{}.sizes());
-  start.x[0] = 1e-14;
+  const auto start = startOf(FastAndSmall{}, {.x = {1e-14}});
   const MeasuredRun run = measuredRun(FastAndSmall{}, start, 1, embedded(1e-3));
   EXPECT_LT(run.bar.tolerances, 1);
   EXPECT_GT(run.steps, 5000);
@@ -144,9 +140,7 @@ struct OscillatorBesideFastAndSmall {
 
 // The velocity is small in the first, tiny step only.
 TEST(ErrorBarOfSmallComponents, TheRemarkNamesTheOneThatStaysSmall) {
-  State<double> start(OscillatorBesideFastAndSmall{}.sizes());
-  start.u[0] = 1;
-  start.x[0] = 1e-14;
+  const auto start = startOf(OscillatorBesideFastAndSmall{}, {.u = {1}, .x = {1e-14}});
   const MeasuredRun run = measuredRun(OscillatorBesideFastAndSmall{}, start, 1, embedded(1e-3));
   EXPECT_TRUE(contains(run.bar.remark, "what comes of x[0], below"));
 }
@@ -169,9 +163,7 @@ struct PendulumBesideGrowth {
 // An exception leaves the integration, and the integrator weighs errors as before.
 TEST(ErrorBarOfSmallComponents, LeavesTheWeightsAfterAnException) {
   const SlowPassage problem{0.0};
-  State<double> start(problem.sizes()), result = start;
-  start.x << 1e-9, 1e-9;
-  result.t = 6;
+  const auto start = startOf(problem, {.x = {1e-9, 1e-9}}), result = startOf(problem, {.t = 6});
   const IntegratorOptions options = embedded(1e-4);
   auto second = secondOf(makeSystem<double>(problem), options);
   const std::int64_t before = second.integrate(start, 6).counters.steps_accepted;
@@ -189,9 +181,7 @@ TEST(ErrorBarOfSmallComponents, LeavesTheWeightsAfterAnException) {
 // In index 1 the system has no multipliers, which the scene has.
 TEST(ErrorBarOfSmallComponents, HoldsInFormulationsWithoutMultipliers) {
   const PendulumBesideGrowth problem;
-  State<double> start(problem.sizes());
-  start.u << 1, 0;
-  start.x[0] = 1e-9;
+  const auto start = startOf(problem, {.u = {1, 0}, .x = {1e-9}});
   for (const Formulation formulation : {Formulation::kIndex1, Formulation::kIndex2, Formulation::kGgl}) {
     const MeasuredRun run = measuredRun(problem, start, 2, embedded(1e-4), formulation);
     expectCovered(run.bar.x, run.first.state.x, Vec<double>{{1e-9 * std::exp(20.0)}}, 1e-4);
@@ -201,9 +191,7 @@ TEST(ErrorBarOfSmallComponents, HoldsInFormulationsWithoutMultipliers) {
 // A component that passes through zero is not small: one integration is enough.
 TEST(ErrorBarOfSmallComponents, DoesNotTakeZerosForSmallComponents) {
   const SlowPassage oscillator{-1e-12, 3};  // its growth is t: integrate over a short time
-  State<double> start(oscillator.sizes());
-  start.x[0] = 1;
-  const MeasuredRun run = measuredRun(oscillator, start, 1.5, embedded(1e-4));
+  const MeasuredRun run = measuredRun(oscillator, startOf(oscillator, {.x = {1, 0}}), 1.5, embedded(1e-4));
   EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
 }
 
@@ -219,9 +207,7 @@ struct OscillatorBesideGrowth {
 
 // The velocity begins with zero, and the steps resolve x: one integration is enough.
 TEST(ErrorBarOfSmallComponents, DoesNotTakeAccurateOnesForSmall) {
-  State<double> start(OscillatorBesideGrowth{}.sizes());
-  start.u[0] = 1;
-  start.x[0] = 1e-9;
+  const auto start = startOf(OscillatorBesideGrowth{}, {.u = {1}, .x = {1e-9}});
   const MeasuredRun run = measuredRun(OscillatorBesideGrowth{}, start, 20, embedded(1e-4));
   EXPECT_EQ(run.steps, run.second.counters.steps_accepted);
 }
@@ -229,8 +215,7 @@ TEST(ErrorBarOfSmallComponents, DoesNotTakeAccurateOnesForSmall) {
 // The norm weighs errors by the new scale, and by that of the constructor again.
 TEST(ErrorWeights, AreThoseOfTheScaleThatWasGivenLast) {
   const SlowPassage problem{2};
-  State<double> start(problem.sizes());
-  start.x << 1, 0.5;
+  const auto start = startOf(problem, {.x = {1, 0.5}});
   Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
   const auto steps = [&] { return integrator.integrate(start, 4).counters.steps_accepted; };
   const std::int64_t before = steps();
@@ -248,9 +233,7 @@ TEST(ErrorWeights, AreThoseOfTheScaleThatWasGivenLast) {
 // In time that runs backward, too.
 TEST(ErrorWeights, HoldBackwardInTime) {
   const SlowPassage problem{2};
-  State<double> start(problem.sizes());
-  start.x << 1, 0.5;
-  start.t = 4;
+  const auto start = startOf(problem, {.t = 4, .x = {1, 0.5}});
   Integrator<double> integrator(makeSystem<double>(problem, {}), makeTableau<double>("radau_iia_3"), embedded(1e-4));
   const auto steps = [&] { return integrator.integrate(start, 0).counters.steps_accepted; };
   integrator.weighErrorsBy(Vec<double>::Constant(2, 1e-30));

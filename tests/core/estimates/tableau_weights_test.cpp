@@ -104,8 +104,7 @@ struct Stiff {
 // Without the filter the estimate of TR-BDF2 is h lambda times that of a component that has no error: some thousand
 // steps.
 TEST(TableauWeights, AreFilteredForStiffComponents) {
-  State<double> start(Stiff{}.sizes());
-  start.x << 1;
+  const auto start = startOf(Stiff{}, {.x = {1}});
   for (const auto& method : {sdirk4(), trBdf2()}) {
     const auto solution = run(Stiff{}, start, 10, method, 1e-4);
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << method.id << ": " << solution.detail;

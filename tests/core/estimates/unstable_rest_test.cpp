@@ -20,11 +20,7 @@ struct AtCapacity {
     r.x[0] = -p.x[0] * (1.0 - p.x[0]) - p.k[0];
   }
   double exact(double t) const { return 1 / (1 + d * std::exp(t)); }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x[0] = exact(0);
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.x = {exact(0)}}); }
 };
 
 void expectCovered(const ErrorBar& bar, Index i, double error) {
@@ -72,12 +68,7 @@ struct RestBesideMany {
     r.x[0] = L * sin(p.x[0] - 1.0) - p.k[0];
     for (Index i = 1; i < 5; ++i) r.x[i] = 1.0 - p.x[i] - p.k[i];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    s.x << 1 + deviation, 0.5, 2, 0.1, 0.7;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {1}, .x = {1 + deviation, 0.5, 2, 0.1, 0.7}}); }
 };
 
 // Whoever does not look at the first steps leaves the rest in a random one of two directions. (Lobatto IIIC with an odd
@@ -114,11 +105,7 @@ struct LateSpiral {
     r.x[0] = growth * x - frequency * y - p.k[0];
     r.x[1] = frequency * x + growth * y - p.k[1];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x << 2, 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.x = {2, 1}}); }
 };
 
 // The motion rests, in few and long steps, when its rest becomes unstable, and what grows then is what the decay has
@@ -184,10 +171,8 @@ struct LateSpiralBeside {
 
 TEST(UnstableRest, ComponentsThatAreDrivenNeedNoShortSteps) {
   const LateSpiralBeside problem{{1, 3, 20}};
-  State<double> start(problem.sizes());
-  start.x << 1, 2, 1, 4;
   const double t = 2 * problem.spiral.turn();
-  const MeasuredRun run = measuredRun(problem, start, t, embedded(1e-4));
+  const MeasuredRun run = measuredRun(problem, startOf(problem, {.x = {1, 2, 1, 4}}), t, embedded(1e-4));
   EXPECT_NEAR(std::hypot(run.second.state.x[0] - 1, run.second.state.x[1] - 1), 1, 0.3);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
   EXPECT_LT(run.steps, 3000);
@@ -215,8 +200,7 @@ struct TenPeriods {
 };
 
 TEST(UnstableRest, ADecayToNothingAfterGrowthIsNoReasonForARemark) {
-  State<double> start({.nx = 1});
-  start.x << 2;
+  const auto start = startOf(TenPeriods{}, {.x = {2}});
   const MeasuredRun run = measuredRun(TenPeriods{}, start, TenPeriods::kEnd + 1, embedded(1e-3));
   EXPECT_NEAR(run.second.state.x[0], 1, 1e-4);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
@@ -236,8 +220,7 @@ struct PushedAfterDecay {
 };
 
 TEST(UnstableRest, APushAfterADecayToNothingIsNoReasonForARemark) {
-  State<double> start({.nx = 1});
-  start.x << 2;
+  const auto start = startOf(PushedAfterDecay{}, {.x = {2}});
   const MeasuredRun run = measuredRun(PushedAfterDecay{}, start, 6, embedded(1e-3));
   EXPECT_GT(std::abs(run.second.state.x[0] - 1), 0.1) << "it is pushed from the rest";
   EXPECT_EQ(run.bar.remark, "");
@@ -246,8 +229,7 @@ TEST(UnstableRest, APushAfterADecayToNothingIsNoReasonForARemark) {
 // Two equal eigenvalues: each motion has an eigenvector of its own.
 TEST(UnstableRest, EqualEigenvaluesAreKeptApart) {
   const LateSpiral problem{0.3, 0, 12};
-  State<double> start(problem.sizes());
-  start.x << 1, 2;
+  const auto start = startOf(problem, {.x = {1, 2}});
   const MeasuredRun run = measuredRun(problem, start, 2 * problem.turn(), embedded(1e-3));
   EXPECT_NEAR(run.second.state.x[1], 2, 0.3);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;

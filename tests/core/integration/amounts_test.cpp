@@ -31,8 +31,7 @@ struct Emptying {
 constexpr double kEmptyTol = 1e-4, kEmptyScale = 10;  // kEmptyScale: of x_1; the others have 1
 
 Solution<double> emptied(double t_end, const IntegratorOptions& options, Formulation form = Formulation::kIndex2) {
-  State<double> start(Emptying{}.sizes());
-  start.x << 1, 1;
+  const auto start = startOf(Emptying{}, {.x = {1, 1}});
   const auto system = makeSystem<double>(Emptying{}, {form});
   Vec<double> scale = Vec<double>::Ones(system->sizes().components());
   scale[3] = kEmptyScale;  // x_1: every form begins with u, v, x_0, x_1
@@ -81,8 +80,7 @@ struct FastDecay {
 };
 
 TEST(Amounts, WhatMayCrossZeroIsNotNamed) {
-  State<double> start(FirstOrderOscillator{}.sizes());
-  start.x << 1, 0.5;
+  const auto start = startOf(FirstOrderOscillator{}, {.x = {1, 0.5}});
   for (const IntegratorOptions& options : {adaptive(kEmptyTol), embedded(kEmptyTol), adaptive(1e-9), embedded(1e-9)}) {
     const auto swing =
         integrate<double>(FirstOrderOscillator{}, start, 20, makeTableau<double>("radau_iia_7"), options);
@@ -156,8 +154,7 @@ struct TinyAmounts {
 TEST(Amounts, ComponentsThatNeverReachTheirToleranceAreNamed) {
   for (const double tol : {1e-4, 1e-8}) {
     const auto run = [tol](double a0) {
-      State<double> start(TinyAmounts{}.sizes());
-      start.x[0] = a0;
+      const auto start = startOf(TinyAmounts{}, {.x = {a0, 0, 0}});
       return integrate<double>(TinyAmounts{}, start, 9, makeTableau<double>("radau_iia_5"), adaptive(tol));
     };
     const auto tiny = run(1e-13);

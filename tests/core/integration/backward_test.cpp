@@ -30,21 +30,14 @@ struct DrivenPendulum {
     const T l = length(t);
     g[0] = (u[0] * u[0] + u[1] * u[1] - l * l) * 0.5;
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    s.v << 0.2, 0.7;  // u v = l l' = 0.2 at t = 0
-    s.x[0] = 0.4;
-    return s;
-  }
+  // u v = l l' = 0.2 at t = 0.
+  State<double> start() const { return startOf(sizes(), {.u = {1, 0}, .v = {0.2, 0.7}, .x = {0.4}}); }
 };
 
 // Radau IIA with 3 stages, order 5. On the way from t = 2 to t = 1 the flow magnifies errors by e^5.
 TEST(Backward, HasTheOrderOfTheMethod) {
   const auto phi = [](double t) { return 1.5 + std::sin(t); };
-  State<double> start(Riccati{}.sizes());
-  start.t = 2;
-  start.x[0] = phi(2);
+  const auto start = startOf(Riccati{}, {.t = 2, .x = {phi(2)}});
   const auto errorOf = [&](double h) {
     const auto solution = integrate<double>(Riccati{}, start, 1, makeTableau<double>("radau_iia_3"), fixedSteps(h));
     EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
@@ -109,9 +102,7 @@ struct BentRate {
 };
 
 TEST(Backward, TellsTheCallersTimes) {
-  State<double> start(BentRate{}.sizes());
-  start.t = 3;
-  start.x[0] = 2;
+  const auto start = startOf(BentRate{}, {.t = 3, .x = {2}});
   std::vector<double> ends;
   Monitor<double> monitor;
   monitor.inside = true;
@@ -154,9 +145,7 @@ TEST(Backward, FailuresNameTheCallersTime) {
 }
 
 TEST(Backward, TheErrorBarIsTheError) {
-  State<double> start(Riccati{}.sizes());
-  start.t = 2;
-  start.x[0] = 1.5 + std::sin(2.0);
+  const auto start = startOf(Riccati{}, {.t = 2, .x = {1.5 + std::sin(2.0)}});
   const MeasuredRun run = measuredRun(Riccati{}, start, 0.5, adaptive(1e-6));
   const double error = std::abs(run.first.state.x[0] - (1.5 + std::sin(0.5)));
   EXPECT_EQ(run.second.state.t, 0.5);
@@ -204,8 +193,7 @@ TEST(Backward, RefusesWhatCannotBeUndone) {
   for (const Case& one : cases) {
     for (const auto formulation : {Formulation::kIndex2, Formulation::kFirstOrder}) {
       SCOPED_TRACE(one.what);
-      State<double> start(one.problem.sizes());
-      start.t = 2;
+      const auto start = startOf(one.problem, {.t = 2});
       Integrator<double> integrator(makeSystem<double>(one.problem, {formulation}), makeTableau<double>("radau_iia_5"),
                                     adaptive(1e-6));
       const auto message = refusal([&] { EXPECT_EQ(integrator.integrate(start, 0).outcome, Outcome::kSuccess); });

@@ -28,8 +28,7 @@ struct Sliding {
 
 TEST(Chattering, IsNamed) {
   const Sliding problem;
-  State<double> start(problem.sizes());
-  start.x[0] = -0.5;
+  const auto start = startOf(problem, {.x = {-0.5}});
   for (const double tol : {1e-3, 1e-9}) {
     EXPECT_EQ(run(problem, start, 1, Discontinuity::kLocate, adaptive(tol)).solution.outcome, Outcome::kChattering)
         << tol;
@@ -72,8 +71,7 @@ struct Ticker {
 
 TEST(Chattering, SwitchesInEveryStepAreNoted) {
   const Ticker problem;
-  State<double> start(problem.sizes());
-  start.d << 1, 0.5e-3;
+  const auto start = startOf(problem, {.d = {1, 0.5e-3}});
   IntegratorOptions options = fixedSteps(1e-3);
   const Result r = run(problem, start, 0.1, Discontinuity::kIgnore, options);
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;

@@ -32,8 +32,7 @@ struct Faster {
 // + 500 instead of 1 + 900, so residuals shrink by 400/501 = 0.798 until the Jacobian is evaluated again. This
 // follows the paper's (3.2) and (3.4), iteration by iteration.
 TEST(PapersNewton, FollowsItsRules) {
-  State<double> start(Faster{}.sizes());
-  start.x[0] = 1;
+  const auto start = startOf(Faster{}, {.x = {1}});
   const auto run = [&](double tolerance, double limit, int after, int most) {
     IntegratorOptions o = fixedSteps(0.1);
     o.newton.kind = parseId<NewtonKind>("paper_rule");  // `modified` would go on to round-off
@@ -65,8 +64,7 @@ TEST(PapersNewton, FollowsItsRules) {
 // With 2.5 times the rate increments grow by 1.5: Newton fails and starts again with a new Jacobian. The step counts
 // all of its iterations.
 TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
-  State<double> start(Faster{}.sizes());
-  start.x[0] = 1;
+  const auto start = startOf(Faster{}, {.x = {1}});
   for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kModified}) {
     IntegratorOptions o = fixedSteps(0.1);
     o.newton.kind = kind;
@@ -115,10 +113,7 @@ TEST(ErrorNorms, AreWhatTheirOptionsSay) {
 // The absolute norm knows no magnitudes. A scale that is given later can only make it stricter.
 TEST(ErrorNorms, WeighAbsoluteErrorsBySmallScalesThatAreGivenLater) {
   const auto system = makeSystem<double>(Coupled{});
-  State<double> y(Coupled{}.sizes());
-  y.u << 0.01, -0.25;
-  y.v << 4, 8;
-  y.x << 0.5;
+  const auto y = startOf(Coupled{}, {.u = {0.01, -0.25}, .v = {4, 8}, .x = {0.5}});
   ErrorNorm<double> norm(*system, {0, 0.1, NormKind::kAbsolute}, Vec<double>::Constant(6, 1e-3));
   norm.update(y);
   EXPECT_EQ(norm.weights(), Vec<double>::Constant(6, 0.1));

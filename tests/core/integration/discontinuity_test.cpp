@@ -37,11 +37,7 @@ struct Bounce {
   std::string switchName(Index i) const { return i == 0 ? "contact" : "release"; }
 };
 
-State<double> height(const Bounce& problem, double u) {
-  State<double> s(problem.sizes());
-  s.u[0] = u;
-  return s;
-}
+State<double> height(const Bounce& problem, double u) { return startOf(problem, {.u = {u}}); }
 
 // Follows from the spring's equation with s(0) = 0, s'(0) = -2: s = -c + c cos wt - (2/w) sin wt, c = 2/k.
 double contactTime(double k) {

@@ -25,12 +25,7 @@ struct GrowingError {
     r.u[0] = -p.u[0] - p.a[0];
     r.x[0] = L * (p.x[0] - cos(p.t)) - sin(p.t) - p.k[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.v[0] = 1;
-    s.x[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.v = {1}, .x = {1}}); }
 };
 
 // With growth the error is far above the tolerance, without it below. The bar is right for both.
@@ -109,9 +104,7 @@ struct EndsAtOne {
 };
 
 TEST(ErrorBar, IsUnknownIfTheSecondIntegrationFails) {
-  State<double> start(EndsAtOne{}.sizes()), result(EndsAtOne{}.sizes());
-  start.x[0] = 1;
-  result.t = 2;
+  const auto start = startOf(EndsAtOne{}, {.x = {1}}), result = startOf(EndsAtOne{}, {.t = 2});
   const auto options = adaptive(1e-4);
   auto second = secondOf(makeSystem<double>(EndsAtOne{}), options);
   Solution<double> other;
@@ -155,12 +148,7 @@ struct NarrowControl {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1.0 - p.d[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x[0] = level;
-    s.d[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.x = {level, 0}, .d = {1}}); }
 };
 
 /// A measuring tank that fills by one unit per second and is emptied when it holds a tenth.
@@ -185,8 +173,7 @@ struct MeasuringTank {
 // At t = 1e6 a time is known to 1e-10. Each emptying comes late by some of them, in both integrations, and what has
 // flowed in since is lost, although the rates before and behind it are equal.
 TEST(ErrorBar, CoversWhatJumpsMakeOfTheErrorOfTheirTime) {
-  State<double> start(MeasuringTank{}.sizes());
-  start.t = 1e6;
+  const auto start = startOf(MeasuringTank{}, {.t = 1e6});
   const double end = 1e6 + 50.0625;  // 500 tenths, and 5/8 of one
   const MeasuredRun m = measuredRun(MeasuringTank{}, start, end, embedded(1e-9));
   ASSERT_EQ(m.first.counters.switches, 500);
@@ -219,8 +206,7 @@ struct Carriage {
 
 // One step would do without the sensor. The second integration has the closer looks.
 TEST(ErrorBar, CoversASwitchThatASolverMayMiss) {
-  State<double> start(Carriage{}.sizes());
-  start.v[0] = 1;
+  const auto start = startOf(Carriage{}, {.v = {1}});
   const double rest = 10 - (7.3 - 0.03 * std::sqrt(std::log(2)));
   for (const double tol : {1e-3, 1e-9}) {
     const MeasuredRun m = measuredRun(Carriage{}, start, 10, embedded(tol));
@@ -257,9 +243,7 @@ TEST(ErrorBar, CoversTheTimeThatRoundingLoses) {
   std::vector<double> parts;  // bar over error
   for (const double t0 : {1e9, 1.7e9, 1e11, 1e12}) {
     for (double length = 1.3; length < 14; length += 0.17) {
-      State<double> start(TimelessOscillator{}.sizes());
-      start.t = t0;
-      start.v[0] = 1;
+      const auto start = startOf(TimelessOscillator{}, {.t = t0, .v = {1}});
       const double t_end = t0 + length;
       const MeasuredRun m = measuredRun(TimelessOscillator{}, start, t_end, embedded(1e-8));
       const double error =

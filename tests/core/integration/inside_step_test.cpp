@@ -23,12 +23,7 @@ struct Both {
   }
 };
 
-State<double> bothStart() {
-  State<double> s(Both{}.sizes());
-  s.u[0] = s.x[0] = 1.5;
-  s.v[0] = 1;
-  return s;
-}
+State<double> bothStart() { return startOf(Both{}, {.u = {1.5}, .v = {1}, .x = {1.5}}); }
 
 // The largest errors of u, v, x, k at 0.3 of all steps of size h.
 std::vector<double> errorsInside(const std::string& method, double h) {

@@ -20,9 +20,7 @@ struct Duffing {
 };
 
 TEST(Integrator, TwoStageLobattoIiiaIsNewmark) {
-  State<double> start(Duffing{}.sizes());
-  start.u[0] = 0.7;
-  start.v[0] = -0.3;
+  const auto start = startOf(Duffing{}, {.u = {0.7}, .v = {-0.3}});
   const double h = 0.1;
   const auto force = [](double t, double u, double v) { return (std::cos(t) - u - u * u * u - 0.2 * v) / 2; };
   double t = 0, u = 0.7, v = -0.3, a = force(t, u, v);

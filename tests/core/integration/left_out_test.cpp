@@ -57,11 +57,7 @@ struct Platform {
       g[i] = (span.x * span.x + span.y * span.y - length * length) * 0.5;
     }
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u << std::cos(angle()), std::sin(angle()), 0;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {std::cos(angle()), std::sin(angle()), 0}}); }
 };
 
 std::vector<Index> leftOutOf(const Platform& platform) {
@@ -88,8 +84,7 @@ TEST(LeftOut, WithoutThatTheStartIsSingular) {
 
 // The platform does not turn, and its centre moves as a pendulum of length 1 from the same angle.
 TEST(LeftOut, GivesTheMotionOfAPendulumInEveryFormulation) {
-  State<double> start(CartesianPendulum{}.sizes());
-  start.u << std::cos(Platform::angle()), std::sin(Platform::angle());
+  const auto start = startOf(CartesianPendulum{}, {.u = {std::cos(Platform::angle()), std::sin(Platform::angle())}});
   const auto pendulum = integrate<double>(CartesianPendulum{}, start, 2, makeTableau<double>("radau_iia_5"),
                                           adaptive(1e-11), Formulation::kGgl);
   for (const Formulation formulation : kFormulations) {

@@ -107,8 +107,7 @@ Solution<double> integrated(const P& problem, const State<double>& start, double
 
 // A solution that hardly changes has long steps, in each of which the carrier would have many periods.
 TEST(ManySwitches, PulsesShorterThanAStepAreAllFound) {
-  State<double> start(CarrierPulses{}.sizes());
-  start.d[0] = 1;
+  const auto start = startOf(CarrierPulses{}, {.d = {1}});
   for (const double tol : {1e-3, 1e-6}) {
     for (const int stages : {0, 3, 5}) {
       const auto solution = integrated(CarrierPulses{}, start, 5, stages, tol);
@@ -141,9 +140,7 @@ struct Encoder {
 };
 
 TEST(ManySwitches, AnEncoderLosesNoPulse) {
-  State<double> start(Encoder{}.sizes());
-  start.u[0] = -0.1;
-  start.d[0] = 1;
+  const auto start = startOf(Encoder{}, {.u = {-0.1}, .d = {1}});
   const double v = 16 * std::numbers::pi, end = 4;
   const double angle = start.u[0] + v * (end - (1 - std::exp(-2 * end)) / 2);
   for (const int stages : {0, 3, 5}) {

@@ -46,8 +46,7 @@ struct Noisy {
 
 template <class P>
 std::string refusalOfRun(const P& problem, double t_end, Formulation formulation = Formulation::kIndex2) {
-  State<double> start(problem.sizes());
-  start.x[0] = 1;
+  const auto start = startOf(problem, {.x = {1}});
   return refusal([&] {
     (void)integrate<double>(problem, start, t_end, makeTableau<double>("radau_iia_3"), adaptive(1e-4), formulation);
   });
@@ -80,8 +79,7 @@ struct RootDomain {
 };
 TEST(MemoryCheck, PointsOutsideOfTheDomainAreNotJudged) {
   EXPECT_EQ(refusalOfRun(RootDomain{}, 0.5), "");
-  State<double> start(RootDomain{}.sizes());
-  start.x[0] = 1;
+  const auto start = startOf(RootDomain{}, {.x = {1}});
   EXPECT_NO_THROW(requireNoMemory(*makeSystem<double>(RootDomain{}, {}), start, 0.5));
 }
 

@@ -28,12 +28,7 @@ struct TwoPointControl {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1.0 - p.d[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.x[0] = level;
-    s.d[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.x = {level}, .d = {1}}); }
   // From switch to switch in closed form.
   double at(double t) const {
     double now = 0, x = level;
@@ -99,11 +94,7 @@ struct BallOnALift {
     u[0] = c * p.t;
     v[0] = c - kRestitution * (p.v[0] - c);
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {1}}); }
   // (u, v) at t, from impact to impact: y is the height above the lift, and falls with g.
   std::array<double, 2> at(double t, int& impacts) const {
     double now = 0, y = 1, w = -c;

@@ -30,9 +30,7 @@ TEST(Events, TheJacobianIsOfTheNewMode) {
       IntegratorOptions options = adaptive(1e-6);
       options.newton.kind = kind;
       options.jacobian = terms;
-      State<double> start(problem.sizes());
-      start.x[0] = 1;
-      const Result r = run(problem, start, 1, Discontinuity::kLocate, options);
+      const Result r = run(problem, startOf(problem, {.x = {1}}), 1, Discontinuity::kLocate, options);
       ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << idOf(kind) << r.solution.detail;
       ASSERT_EQ(r.events.size(), 1u);
       EXPECT_EQ(r.solution.counters.newton_restarts, 0) << idOf(kind);
@@ -99,9 +97,7 @@ TEST(Events, ARestartIsANewStart) {
         IntegratorOptions options = adaptive(1e-7);
         options.step.control = control;
         options.step.estimate = estimate;
-        State<double> start(problem.sizes());
-        start.u[0] = 0.7;
-        const SpringRun whole = springRun(problem, start, options);
+        const SpringRun whole = springRun(problem, startOf(problem, {.u = {0.7}}), options);
         const auto after =
             std::find_if(whole.steps.begin(), whole.steps.end(), [](const Step& s) { return s.t > 0.5 + 1e-6; });
         ASSERT_NE(after, whole.steps.end());
@@ -129,9 +125,7 @@ TEST(Events, ARestartIsANewStart) {
 TEST(Events, StepsAddUp) {
   for (const bool fixed : {false, true}) {
     IntegratorOptions options = fixed ? fixedSteps(0.17) : adaptive(1e-7);
-    State<double> start(Spring{2}.sizes());
-    start.u[0] = 0.7;
-    const SpringRun run = springRun(Spring{2}, start, options);
+    const SpringRun run = springRun(Spring{2}, startOf(Spring{2}, {.u = {0.7}}), options);
     double t = 0;
     for (const Step& s : run.steps) {
       EXPECT_NEAR(s.h, s.t - t, 1e-13) << "at t = " << s.t;
@@ -170,8 +164,7 @@ TEST(Events, AreFoundInFewAttempts) {
       for (const char* method : {"radau_iia_2", "radau_iia_5"}) {
         const auto factorizations = [&](double at) {
           const Passing problem{at};
-          State<double> start(problem.sizes());
-          start.u[0] = 1;
+          const auto start = startOf(problem, {.u = {1}});
           IntegratorOptions options = adaptive(tol);
           options.step.h = 0.3;
           const Result r = run(problem, start, 1.2, Discontinuity::kLocate, options, method);
@@ -215,8 +208,7 @@ TEST(Events, OfARaceAreOrderedBySolvedSteps) {
       for (const double crossing : {0.4, 0.7, 1.1}) {
         for (const bool swapped : {false, true}) {
           const Race problem{std::exp(crossing), crossing + lag, swapped};
-          State<double> start(problem.sizes());
-          start.x[0] = 1;
+          const auto start = startOf(problem, {.x = {1}});
           IntegratorOptions options = adaptive(tol);
           options.step.h = 1.5;
           for (const char* method : {"radau_iia_2", "radau_iia_3"}) {

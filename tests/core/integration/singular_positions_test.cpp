@@ -80,10 +80,7 @@ Solution<double> runOver(const P& problem, const State<double>& start, double t_
 }
 
 State<double> beadAt(double x, double y, double vx, double vy) {
-  State<double> s(Sizes{.nu = 2, .nz = 1, .constraints = 1});
-  s.u << x, y;
-  s.v << vx, vy;
-  return s;
+  return startOf({.nu = 2, .nz = 1, .constraints = 1}, {.u = {x, y}, .v = {vx, vy}});
 }
 
 void expectSingular(const Solution<double>& s, double t) {
@@ -140,9 +137,7 @@ TEST(SingularPositions, ASharpBendIsNoCrossing) {
 
 // Steps over large parts of a turn: the gradient of a circle turns with them, but never at once.
 TEST(SingularPositions, LongStepsOverARegularMotionAreNoCrossing) {
-  State<double> start(CartesianPendulum{}.sizes());
-  start.u << 0, -1;
-  start.v << 7, 0;  // turns over
+  const auto start = startOf(CartesianPendulum{}, {.u = {0, -1}, .v = {7, 0}});  // turns over
   forEachSetting([&](const Setting& c) {
     const Solution<double> s = runOver(CartesianPendulum{}, start, 10, c);
     EXPECT_NE(s.outcome, Outcome::kSingular) << s.detail;
@@ -168,8 +163,7 @@ struct Repeated {
 };
 
 TEST(SingularPositions, DependentConstraintsAtTheStartAreSaidByNumber) {
-  State<double> start(Repeated{}.sizes());
-  start.u << 0.6, -0.8, 0;
+  const auto start = startOf(Repeated{}, {.u = {0.6, -0.8, 0}});
   for (const Formulation f : {Formulation::kIndex3, Formulation::kIndex2, Formulation::kGgl, Formulation::kIndex1}) {
     const auto s = integrate<double>(Repeated{}, start, 1, makeTableau<double>("radau_iia_5"), adaptive(1e-6), f);
     EXPECT_EQ(name(s.outcome), "singular") << idOf(f);

@@ -41,8 +41,7 @@ TEST(Events, Index3RestartsWithVelocitiesOnTheirConstraint) {
   IntegratorOptions options = fixedSteps(0.05);
   const auto system = makeSystem<double>(HeavierPendulum{}, {Formulation::kIndex3});
   Integrator<double> integrator(system, makeTableau<double>("radau_iia_3"), options);
-  State<double> start(system->sizes());
-  start.u << 1, 0;
+  const auto start = startOf(HeavierPendulum{}, {.u = {1, 0}});
   std::vector<double> normal_speed, length;
   std::vector<Index> order;
   Monitor<double> monitor;
@@ -105,8 +104,7 @@ struct HiddenPeak {
 // The polynomial of one step of 1 (Radau IIA with two stages) rises to 0.562 only, that of the step shortened to 0.7 to
 // 0.756, and ends at 0.442: neither end shows the switch. (Both from y' = 4i y, by hand.)
 TEST(Events, AnEarlierOneThatOnlyTheShortenedStepShowsComesFirst) {
-  State<double> start(HiddenPeak{}.sizes());
-  start.x << 0, 1;
+  const auto start = startOf(HiddenPeak{}, {.x = {0, 1}});
   const Result r = run(HiddenPeak{}, start, 1, Discontinuity::kLocate, fixedSteps(1), "radau_iia_2");
   ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << r.solution.detail;
   ASSERT_EQ(r.events.size(), 2u);

@@ -48,11 +48,7 @@ struct Fall {
   Integrator<double> integrator() const {
     return {makeSystem<double>(Ball{}, {.discontinuity = treatment}), makeTableau<double>("radau_iia_3"), options};
   }
-  static State<double> start() {
-    State<double> start(Ball{}.sizes());
-    start.u << 1;
-    return start;
-  }
+  static State<double> start() { return startOf(Ball{}, {.u = {1}}); }
   Solution<double> to(double t_end) const { return integrator().integrate(start(), t_end); }
   std::string refusal() const {
     return irk::refusal([&] { static_cast<void>(integrator()); });

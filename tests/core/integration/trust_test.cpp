@@ -24,12 +24,7 @@ struct Elastic {
   void onSwitch(Index, const Point<T>& p, T* d) const {
     d[0] = 1.0 - p.d[0];
   }
-  State<double> start() const {
-    State<double> s(sizes());
-    s.u[0] = 1;
-    s.v[0] = -1;
-    return s;
-  }
+  State<double> start() const { return startOf(sizes(), {.u = {1}, .v = {-1}}); }
   double heightAt(double t) const { return t - 1 - std::acos(-1.0) / std::sqrt(k); }
 };
 

@@ -199,9 +199,7 @@ std::function<void()> with(Change change) {
     monitor.inside = true;
     monitor.accepted = [](const StepRecord<double>& step) { (void)step.inside->at(step.t - step.h / 2); };
     monitor.located = [](const LocatedSwitch<double>&) {};
-    State<double> start(WrongSystem::kRight);
-    start.x[0] = 1;
-    const auto s = integrator.integrate(start, 1.0, monitor);
+    const auto s = integrator.integrate(startOf(WrongSystem::kRight, {.x = {1}}), 1.0, monitor);
     EXPECT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_EQ(s.counters.switches, 1);
     EXPECT_NEAR(s.state.x[0], std::exp(-1.0), 1e-3);

@@ -36,7 +36,7 @@ struct Watched : SwitchesOnceAt {
 // Of the interval [0, 1], a part that holds stages, but no point of the checks before the first step.
 bool isInside(double t) { return t > 0.2 && t < 0.45; }
 
-State<double> startOf(const Watched& problem) {
+State<double> onesOf(const Watched& problem) {
   State<double> start(problem.sizes());
   start.x.setOnes();
   return start;
@@ -52,9 +52,9 @@ TEST(Reentry, AnIntegratorThatHasBeenMovedFromIsRefused) {
   const Watched problem;
   auto first = integratorOf(problem);
   auto second = std::move(first);
-  EXPECT_EQ(second.integrate(startOf(problem), 1.0).outcome, Outcome::kSuccess);
+  EXPECT_EQ(second.integrate(onesOf(problem), 1.0).outcome, Outcome::kSuccess);
   // NOLINTNEXTLINE(bugprone-use-after-move): that is the test
-  EXPECT_EQ(refusal([&] { (void)first.integrate(startOf(problem), 1.0); }),
+  EXPECT_EQ(refusal([&] { (void)first.integrate(onesOf(problem), 1.0); }),
             "Integrator::integrate: the object has been moved from");
 }
 
@@ -62,12 +62,12 @@ TEST(Reentry, AnIntegratorThatHasBeenMovedFromIsRefused) {
 TEST(Reentry, ACallFromACallbackIsRefused) {
   const Watched problem;
   auto integrator = integratorOf(problem);
-  const auto again = [&] { (void)integrator.integrate(startOf(problem), 1.0); };
+  const auto again = [&] { (void)integrator.integrate(onesOf(problem), 1.0); };
   const auto from = [&](auto set) {
     return [&, set] {
       Monitor<double> monitor;
       set(monitor);
-      (void)integrator.integrate(startOf(problem), 1.0, monitor);
+      (void)integrator.integrate(onesOf(problem), 1.0, monitor);
     };
   };
   const std::string message = "Integrator::integrate is called while another call of the same object is under way";
@@ -77,18 +77,18 @@ TEST(Reentry, ACallFromACallbackIsRefused) {
       {"located", message, from([&](auto& m) { m.located = [&](const auto&) { again(); }; })},
       {"interrupt", message, from([&](auto& m) { m.interrupt = [&] { return again(), Outcome::kSuccess; }; })},
   });
-  EXPECT_EQ(integrator.integrate(startOf(problem), 1.0).outcome, Outcome::kSuccess) << "the next call works";
+  EXPECT_EQ(integrator.integrate(onesOf(problem), 1.0).outcome, Outcome::kSuccess) << "the next call works";
 }
 
 TEST(Reentry, ACallFromTheResidualIsRefused) {
   for (const int threads : {1, 2}) {
     Integrator<double>* own = nullptr;
     const Watched problem{[&own](double t) {
-      if (isInside(t)) (void)own->integrate(startOf(Watched{}), 1.0);
+      if (isInside(t)) (void)own->integrate(onesOf(Watched{}), 1.0);
     }};
     auto integrator = integratorOf(problem, threads);
     own = &integrator;
-    EXPECT_TRUE(contains(refusal([&] { (void)integrator.integrate(startOf(problem), 1.0); }), "another call"))
+    EXPECT_TRUE(contains(refusal([&] { (void)integrator.integrate(onesOf(problem), 1.0); }), "another call"))
         << threads;
   }
 }
@@ -111,7 +111,7 @@ TEST(Reentry, AnExceptionOfTheResidualReachesTheCallerWithAnyNumberOfThreads) {
       if (isInside(t)) throw std::runtime_error("no residual at t = " + std::to_string(t));
     }};
     auto integrator = integratorOf(problem, threads);
-    const std::string message = thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0); });
+    const std::string message = thrownBy([&] { (void)integrator.integrate(onesOf(problem), 1.0); });
     EXPECT_TRUE(contains(message, "no residual at t = 0.")) << threads;
     messages.insert(message);
   }
@@ -122,18 +122,18 @@ TEST(Reentry, AnExceptionOfTheResidualReachesTheCallerWithAnyNumberOfThreads) {
 TEST(Reentry, AnIntegratorMayBeUsedAfterAnException) {
   for (const int threads : {1, 2}) {
     auto fresh = integratorOf(Watched{}, threads);
-    const auto expected = fresh.integrate(startOf(Watched{}), 1.0);
+    const auto expected = fresh.integrate(onesOf(Watched{}), 1.0);
     std::atomic<bool> throws = true;
     const Watched problem{[&throws](double t) {
       if (throws && isInside(t)) throw std::runtime_error("residual");
     }};
     auto integrator = integratorOf(problem, threads);
-    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0); }), "residual");
+    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(onesOf(problem), 1.0); }), "residual");
     throws = false;
     Monitor<double> monitor;
     monitor.accepted = [](const auto&) { throw std::runtime_error("monitor"); };
-    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(startOf(problem), 1.0, monitor); }), "monitor");
-    const auto s = integrator.integrate(startOf(problem), 1.0);
+    EXPECT_EQ(thrownBy([&] { (void)integrator.integrate(onesOf(problem), 1.0, monitor); }), "monitor");
+    const auto s = integrator.integrate(onesOf(problem), 1.0);
     EXPECT_EQ(s.outcome, Outcome::kSuccess);
     EXPECT_EQ(s.state.x, expected.state.x);
     EXPECT_EQ(s.counters.steps_accepted, expected.counters.steps_accepted);

@@ -37,12 +37,7 @@ struct Spy {
   }
 };
 
-State<double> spyStart() {
-  State<double> s(Spy{}.sizes());
-  s.u[0] = 0.5;
-  s.v[0] = 2;
-  return s;
-}
+State<double> spyStart() { return startOf(Spy{}, {.u = {0.5}, .v = {2}}); }
 
 std::vector<Asked> askedBy(const IntegratorOptions& options, double t_end, const char* method) {
   const Spy spy;
@@ -186,8 +181,7 @@ struct Algebraic {
 
 TEST(JacobianTermsOption, NoConstraintXzDropsTheAlgebraicRows) {
   const auto system = makeSystem<double>(Algebraic{});
-  State<double> s(Algebraic{}.sizes());
-  s.x << 0.5;
+  const auto s = startOf(Algebraic{}, {.x = {0.5}});
   const auto of = [&](JacobianTerms terms) {
     Linearization<double> D(Pattern::dense(3));
     Differentiator<double>(*system, DerivativeSource::kAutomatic, terms).evaluate(Level::kFormulated, pointOf(s), D);
@@ -218,9 +212,7 @@ struct HeavyMass {
 };
 
 TEST(JacobianTermsOption, CostIterationsNotAccuracy) {
-  State<double> start(HeavyMass{}.sizes());
-  start.u[0] = 1;
-  start.x[0] = 0.5;
+  const auto start = startOf(HeavyMass{}, {.u = {1}, .x = {0.5}});
   // With fixed steps Newton iterates to round-off, regardless of its matrix.
   const auto with = [&](JacobianTerms terms) {
     IntegratorOptions o = fixedSteps(0.01);

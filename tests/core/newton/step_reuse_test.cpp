@@ -26,10 +26,8 @@ struct Logistic {
 
 template <class P>
 Taken stepsOf(const P& problem, double x0, double t_end, std::string_view newton, IntegratorOptions o) {
-  State<double> start(problem.sizes());
-  start.x[0] = x0;
   o.newton.kind = newtonNamed(newton);
-  const Taken all = taken(problem, start, t_end, o);
+  const Taken all = taken(problem, startOf(problem, {.x = {x0}}), t_end, o);
   EXPECT_EQ(all.solution.outcome, Outcome::kSuccess) << newton;
   return all;
 }

@@ -19,10 +19,7 @@ struct Ramp {
 };
 
 State<double> afterManySteps(Summation summation) {
-  State<double> start(Ramp{}.sizes());
-  start.u[0] = 1000;
-  start.v[0] = 0.1;
-  start.x[0] = 1000;
+  const auto start = startOf(Ramp{}, {.u = {1000}, .v = {0.1}, .x = {1000}});
   auto options = fixedSteps(1e-3);
   options.summation = summation;
   const auto s = integrate<double>(Ramp{}, start, 100, makeTableau<double>("gauss_2"), options);

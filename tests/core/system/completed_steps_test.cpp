@@ -132,9 +132,7 @@ TEST(CompletedSteps, MayTurnTheAxesInEachFormulation) {
                                  Formulation::kGgl, Formulation::kIndex1, Formulation::kFirstOrder}) {
     Integrator<double> integrator(makeSystem<double>(TurnedAxes{}, {formulation}), makeTableau<double>("radau_iia_3"),
                                   adaptive(1e-8));
-    State<double> start(TurnedAxes{}.sizes());
-    start.u[0] = start.v[1] = 1;
-    const auto end = integrator.integrate(start, 4);
+    const auto end = integrator.integrate(startOf(TurnedAxes{}, {.u = {1, 0}, .v = {0, 1}}), 4);
     ASSERT_EQ(end.outcome, Outcome::kSuccess) << idOf(formulation) << end.detail;
     EXPECT_EQ(end.state.d[0], 1) << idOf(formulation);
     EXPECT_NEAR(end.state.u[0], std::cos(4 - std::numbers::pi), 1e-5) << idOf(formulation);

@@ -132,8 +132,7 @@ struct Root {
 };
 
 TEST(UserSystem, NamesTheEvaluationThatIsNotFiniteAtTheStart) {
-  State<double> start(Root{}.sizes());
-  start.x[0] = -1;
+  const auto start = startOf(Root{}, {.x = {-1}});
   const auto s = integrate<double>(Root{}, start, 1, makeTableau<double>("radau_iia_3"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kNotFinite);
   EXPECT_TRUE(contains(s.detail, "at the start, t = 0: row 0: residual"));
