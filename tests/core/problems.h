@@ -62,6 +62,14 @@ struct LongPendulum {
 /// Of length 1.
 using CartesianPendulum = LongPendulum<double>;
 
+/// Base of a system of two coordinates on the unit circle.
+struct OnUnitCircle {
+  template <class T, class U, class G>
+  void constraints(const T&, const U& u, G&& g) const {
+    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) * 0.5;
+  }
+};
+
 /// Two coupled nonlinear oscillators with a mass matrix that depends on u: a second-order ODE.
 struct Oscillators {
   Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 0, .constraints = 0}; }

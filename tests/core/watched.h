@@ -36,7 +36,7 @@ Taken taken(const P& problem, const State<double>& start, double t_end, const In
 }
 
 /// A mass that depends on u, v, x and z, and a constraint force whose direction depends on x and z.
-struct Coupled {
+struct Coupled : OnUnitCircle {
   Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
@@ -44,10 +44,6 @@ struct Coupled {
     r.u[0] = 3.0 * p.u[1] + 2.0 * p.v[1] + p.x[0] - m * p.a[0] - p.u[0] * p.z[0];
     r.u[1] = 5.0 * p.u[0] * p.u[0] - p.a[1] - p.u[1] * p.z[0];
     r.x[0] = p.u[0] - p.x[0] * p.x[0] - p.k[0];
-  }
-  template <class T, class U, class G>
-  void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) * 0.5;
   }
 };
 

@@ -146,17 +146,13 @@ TEST(ErrorBarOfSmallComponents, TheRemarkNamesTheOneThatStaysSmall) {
 }
 
 /// A pendulum beside a component x = 1e-9 e^(10 t): position constraints have multipliers.
-struct PendulumBesideGrowth {
+struct PendulumBesideGrowth : OnUnitCircle {
   Sizes sizes() const { return {.nu = 2, .nx = 1, .nz = 1, .constraints = 1}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -p.u[0] * p.z[0] - p.a[0];
     r.u[1] = -9.81 - p.u[1] * p.z[0] - p.a[1];
     r.x[0] = 10.0 * p.x[0] - p.k[0];
-  }
-  template <class T, class U, class G>
-  void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) * 0.5;
   }
 };
 

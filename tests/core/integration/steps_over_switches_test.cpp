@@ -12,16 +12,12 @@ namespace {
 
 /// A pendulum of length 1 in Cartesian coordinates. At t = 0.42 it becomes twice as heavy; the tension z that follows
 /// from that makes the second switch due, at the same time.
-struct HeavierPendulum {
+struct HeavierPendulum : OnUnitCircle {
   Sizes sizes() const { return {.nu = 2, .nx = 0, .nz = 1, .constraints = 1, .discrete = 2, .switches = 2}; }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     r.u[0] = -p.a[0] - p.u[0] * p.z[0];
     r.u[1] = -p.a[1] - 10.0 * (1.0 + p.d[0]) - p.u[1] * p.z[0];
-  }
-  template <class T, class U, class G>
-  void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - 1) * 0.5;
   }
   // Falling from rest at height 0, v^2 = -20 u_1 and z = v^2 - 10 (1 + d) u_1 = -(30 + 10 d) u_1.
   template <class T>

@@ -108,12 +108,8 @@ TEST(CompletedSteps, AreCompletedWithFixedStepsToo) {
 }
 
 /// A point on the unit circle, phi = t. A step that ends with x < 0 asks for the axes to be turned around.
-struct TurnedAxes {
+struct TurnedAxes : OnUnitCircle {
   Sizes sizes() const { return {.nu = 2, .nz = 1, .constraints = 1, .discrete = 1}; }
-  template <class T, class U, class G>
-  void constraints(const T&, const U& u, G&& g) const {
-    g[0] = (u[0] * u[0] + u[1] * u[1] - 1.0) / 2.0;
-  }
   template <class T>
   void residual(const Point<T>& p, Rows<T> r) const {
     for (Index i = 0; i < 2; ++i) r.u[i] = p.a[i] + p.z[0] * p.u[i];
