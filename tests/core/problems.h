@@ -30,6 +30,31 @@ State<double> startOf(const P& problem, const Given& given) {
   return startOf(problem.sizes(), given);
 }
 
+/// x' = rate(p) at the point p, one unknown: FirstOrder{[](const auto& p) { return -p.x[0]; }}.
+template <class F>
+struct FirstOrder {
+  F rate;
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = rate(p) - p.k[0];
+  }
+};
+template <class F>
+FirstOrder(F) -> FirstOrder<F>;
+/// u'' = rate(p) at the point p, one unknown.
+template <class F>
+struct SecondOrder {
+  F rate;
+  Sizes sizes() const { return {.nu = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.u[0] = rate(p) - p.a[0];
+  }
+};
+template <class F>
+SecondOrder(F) -> SecondOrder<F>;
+
 /// y' = -(y^2 - phi^2) + phi', phi = 1.5 + sin t, with the solution y = phi. Nonlinear and non-autonomous, so every
 /// damaged tableau loses order.
 struct Riccati {

@@ -100,19 +100,11 @@ TEST(Defect, IsTheFilteredResidualOfTheContinuousSolution) {
 }
 
 // Where the solution is a polynomial that the stages reproduce, there is nothing between them: x' = 4 t^3 has degree 3.
-struct QuarticInTime {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = 4.0 * p.t * p.t * p.t - p.k[0];
-  }
-};
-
 TEST(Defect, OfAPolynomialIsZero) {
+  const FirstOrder quartic{[](const auto& p) { return 4.0 * p.t * p.t * p.t; }};
   for (const char* method : {"radau_iia_4", "gauss_4", "lobatto_iiic_4"}) {
-    SolvedStepOf<QuarticInTime> step({}, method, 1e-12);
-    State<double> start(QuarticInTime{}.sizes());
-    step.solve(start, 1);
+    SolvedStepOf<decltype(quartic)> step(quartic, method, 1e-12);
+    step.solve(State<double>(quartic.sizes()), 1);
     const auto result = step.defect.largest(step.from, step.stepper.stages(), step.to);
     ASSERT_EQ(result.outcome, Outcome::kSuccess);
     EXPECT_LT(result.error, 0.1) << method;

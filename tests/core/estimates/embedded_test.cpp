@@ -149,20 +149,14 @@ TEST(EmbeddedEstimate, HasOrderS) {
   }
 }
 
-/// x' = cos(20 t): nothing but an input.
-struct Input {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::cos;
-    r.x[0] = cos(20.0 * p.t) - p.k[0];
-  }
-};
-
 // A polynomial through a stage at the start would have no defect there.
 TEST(EmbeddedEstimate, SeesAnInputAlsoWithAStageAtTheStart) {
+  const FirstOrder input{[](const auto& p) {
+    using std::cos;
+    return cos(20.0 * p.t);
+  }};
   for (const char* method : {"radau_iia_3", "gauss_3", "radau_ia_3", "lobatto_iiic_3", "lobatto_iiid_3"}) {
-    EstimatedStep step(Input{}, State<double>(Input{}.sizes()), method, 0.3);
+    EstimatedStep step(input, State<double>(input.sizes()), method, 0.3);
     EXPECT_GT(step.error() * 1e-12, std::abs(step.to.x[0] - std::sin(6.0) / 20)) << method;
   }
 }
@@ -190,25 +184,20 @@ TEST(EmbeddedEstimate, ControlsTheErrorOfRuns) {
   }
 }
 
-/// x' = -1e6 (x - cos t): a deviation of the start from cos t decays at once.
-struct Relaxing {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::cos;
-    r.x[0] = -1e6 * (p.x[0] - cos(p.t)) - p.k[0];
-  }
-};
-
 // HW II (IV.8.20): in the first step and after rejections the estimate is filtered twice. In a step over the
 // transient, the estimate filtered once is about the deviation of the start, 20 tolerances,
 // although the error of the step is much smaller.
 TEST(EmbeddedEstimate, OfAFirstStepOverATransientRejectsNothing) {
+  // A deviation of the start from cos t decays at once.
+  const FirstOrder relaxing{[](const auto& p) {
+    using std::cos;
+    return -1e6 * (p.x[0] - cos(p.t));
+  }};
   for (const char* method : {"radau_iia_3", "radau_iia_5"}) {
     IntegratorOptions o = embedded(1e-4);
     o.step.h = 0.1;
-    const auto start = startOf(Relaxing{}, {.x = {1 + 4e-3}});
-    const auto s = integrate<double>(Relaxing{}, start, 0.1, makeTableau<double>(method), o);
+    const auto start = startOf(relaxing, {.x = {1 + 4e-3}});
+    const auto s = integrate<double>(relaxing, start, 0.1, makeTableau<double>(method), o);
     ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
     EXPECT_EQ(s.counters.steps_accepted, 1) << method;
     EXPECT_EQ(s.counters.steps_rejected_error, 0) << method;

@@ -8,22 +8,14 @@
 namespace irk::test {
 namespace {
 
-/// y' = -(y - offset) from offset + 1: a motion of 0.632 until t = 1.
-struct DecayAbove {
-  double offset;
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = -(p.x[0] - offset) - p.k[0];
-  }
-};
-
 // Whether the bar of a result at t = 1 that is wrong by `error` is measured again.
 bool isMeasuredAgain(double error, double tolerance, double offset = 0) {
-  const auto start = startOf({.nx = 1}, {.x = {offset + 1}});
-  const auto result = startOf({.nx = 1}, {.t = 1, .x = {offset + std::exp(-1) + error}});
+  // A motion of 0.632 until t = 1.
+  const FirstOrder decay{[offset](const auto& p) { return -(p.x[0] - offset); }};
+  const auto start = startOf(decay, {.x = {offset + 1}});
+  const auto result = startOf(decay, {.t = 1, .x = {offset + std::exp(-1) + error}});
   const auto options = adaptive(tolerance);
-  auto second = secondOf(makeSystem<double>(DecayAbove{offset}), options);
+  auto second = secondOf(makeSystem<double>(decay), options);
   Solution<double> other;
   return asksForStricter(measureErrorBar(result, second, start, options.tolerances, {}, other));
 }
@@ -44,21 +36,14 @@ TEST(ErrorBar, AsksForAStricterIntegrationIfItIsLargeBesideTheMotion) {
   EXPECT_FALSE(asksForStricter(unknown));
 }
 
-/// u'' = -100 u from u = 1: after ten periods it is at its start again. u goes as far as 2 from it, v as far as 10.
-struct FastOscillator {
-  Sizes sizes() const { return {.nu = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -100.0 * p.u[0] - p.a[0];
-  }
-};
-
+// After ten periods the oscillator is at its start again. u goes as far as 2 from it, v as far as 10.
 TEST(ErrorBar, TheMotionOfAComponentIsItsLargestDistanceFromTheStart) {
-  const auto again = [](double error_u, double error_v) {
-    const auto start = startOf({.nu = 1}, {.u = {1}});
-    const auto result = startOf({.nu = 1}, {.t = 2 * std::acos(-1.0), .u = {1 + error_u}, .v = {error_v}});
+  const SecondOrder oscillator{[](const auto& p) { return -100.0 * p.u[0]; }};
+  const auto again = [&](double error_u, double error_v) {
+    const auto start = startOf(oscillator, {.u = {1}});
+    const auto result = startOf(oscillator, {.t = 2 * std::acos(-1.0), .u = {1 + error_u}, .v = {error_v}});
     const auto options = adaptive(1e-3);
-    auto second = secondOf(makeSystem<double>(FastOscillator{}), options);
+    auto second = secondOf(makeSystem<double>(oscillator), options);
     Solution<double> other;
     return asksForStricter(measureErrorBar(result, second, start, options.tolerances, {}, other));
   };

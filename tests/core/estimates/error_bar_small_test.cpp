@@ -57,17 +57,8 @@ TEST(ErrorBarOfSmallComponents, CoversWhatComesBackFromFarBelowTheTolerance) {
   }
 }
 
-/// u'' = 100 u: a pendulum that stands upright.
-struct Upright {
-  Sizes sizes() const { return {.nu = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = 100.0 * p.u[0] - p.a[0];
-  }
-};
-
 TEST(ErrorBarOfSmallComponents, CoversAnUnstableEquilibriumInSecondOrderForm) {
-  const Upright problem;
+  const SecondOrder problem{[](const auto& p) { return 100.0 * p.u[0]; }};  // a pendulum that stands upright
   const auto start = startOf(problem, {.u = {1e-9}});  // and u' = 0: one of the components begins with zero
   const double t_end = 2.1, turns = 10 * t_end;
   for (const double tol : {1e-3, 1e-4}) {
@@ -106,20 +97,14 @@ TEST(ErrorBarOfSmallComponents, AVelocityAtARestAwayFromZeroIsNoneOfThem) {
   }
 }
 
-/// x' = -x + 1e-8 sin(1e6 t): a fast motion far below the tolerance.
-struct FastAndSmall {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::sin;
-    r.x[0] = -p.x[0] + 1e-8 * sin(1e6 * p.t) - p.k[0];
-  }
-};
-
-// It would take 1e6 steps. The effort has a limit, and the bar is then that of the second integration.
+// A fast motion far below the tolerance would take 1e6 steps. The effort has a limit, and the bar is then that of the
+// second integration.
 TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
-  const auto start = startOf(FastAndSmall{}, {.x = {1e-14}});
-  const MeasuredRun run = measuredRun(FastAndSmall{}, start, 1, embedded(1e-3));
+  const FirstOrder problem{[](const auto& p) {
+    using std::sin;
+    return -p.x[0] + 1e-8 * sin(1e6 * p.t);
+  }};
+  const MeasuredRun run = measuredRun(problem, startOf(problem, {.x = {1e-14}}), 1, embedded(1e-3));
   EXPECT_LT(run.bar.tolerances, 1);
   EXPECT_GT(run.steps, 5000);
   EXPECT_LT(run.steps, 20000 + 1000);  // constants.h: 20 000 / unknowns
@@ -127,7 +112,7 @@ TEST(ErrorBarOfSmallComponents, GivesUpWhereThatTakesTooManySteps) {
   EXPECT_TRUE(contains(run.bar.remark, "takes too many steps"));
 }
 
-/// An oscillator, whose velocity begins with zero, beside the component of FastAndSmall.
+/// An oscillator, whose velocity begins with zero, beside this fast motion.
 struct OscillatorBesideFastAndSmall {
   Sizes sizes() const { return {.nu = 1, .nx = 1}; }
   template <class T>

@@ -145,17 +145,10 @@ TEST(Growth, EqualEigenvaluesHaveOneDirectionEach) {
   }
 }
 
-/// An oscillator that is damped critically: one eigenvector for two eigenvalues.
-struct Critical {
-  Sizes sizes() const { return {.nu = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -10.0 * p.v[0] - 25.0 * (p.u[0] - 1.0) - p.a[0];
-  }
-};
-
+// An oscillator that is damped critically: one eigenvector for two eigenvalues.
 TEST(Growth, AnEigenvectorThatIsMissingLeavesTheMotionLiving) {
-  const auto system = makeSystem<double>(Critical{});
+  const auto system =
+      makeSystem<double>(SecondOrder{[](const auto& p) { return -10.0 * p.v[0] - 25.0 * (p.u[0] - 1.0); }});
   State<double> s(system->sizes());
   s.u[0] = 1.001;
   s.w[0] = -0.025;

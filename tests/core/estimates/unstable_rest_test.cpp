@@ -187,41 +187,28 @@ TEST(UnstableRest, ARemarkTellsOfADecayThatIsTooLong) {
   EXPECT_GT(run.steps, 13000) << "10 000 through the decay, and those of the growth";
 }
 
-/// x - 1 = e^(10 sin t) over ten periods, and then a decay to nothing within one unit of time.
-struct TenPeriods {
-  static constexpr double kEnd = 20 * M_PI;
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::cos;
-    const bool decays = p.t > kEnd;
-    r.x[0] = (decays ? T(-50.0) : T(10.0 * cos(p.t))) * (p.x[0] - 1.0) - p.k[0];
-  }
-};
-
+// x - 1 = e^(10 sin t) over ten periods, and then a decay to nothing within one unit of time.
 TEST(UnstableRest, ADecayToNothingAfterGrowthIsNoReasonForARemark) {
-  const auto start = startOf(TenPeriods{}, {.x = {2}});
-  const MeasuredRun run = measuredRun(TenPeriods{}, start, TenPeriods::kEnd + 1, embedded(1e-3));
+  static constexpr double kEnd = 20 * M_PI;
+  const FirstOrder problem{[]<class T>(const Point<T>& p) {
+    using std::cos;
+    return (p.t > kEnd ? T(-50.0) : T(10.0 * cos(p.t))) * (p.x[0] - 1.0);
+  }};
+  const MeasuredRun run = measuredRun(problem, startOf(problem, {.x = {2}}), kEnd + 1, embedded(1e-3));
   EXPECT_NEAR(run.second.state.x[0], 1, 1e-4);
   EXPECT_TRUE(run.bar.remark.empty()) << run.bar.remark;
 }
 
-/// x decays to nothing around 1, is moved by a push at t = 3, decays by e^-15 from there on, and grows again.
-struct PushedAfterDecay {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
+// x decays to nothing around 1, is moved by a push at t = 3, decays by e^-15 from there on, and grows again.
+TEST(UnstableRest, APushAfterADecayToNothingIsNoReasonForARemark) {
+  const FirstOrder problem{[](const auto& p) {
     using std::exp;
     using std::tanh;
-    const T from_push = 10.0 * (p.t - 3.0),
-            rate = 10.0 * tanh(10.0 * (p.t - 4.5)) - 20.0 * (1.0 - tanh(10.0 * (p.t - 2.5)));
-    r.x[0] = rate * (p.x[0] - 1.0) + 5.0 * exp(-from_push * from_push) - p.k[0];
-  }
-};
-
-TEST(UnstableRest, APushAfterADecayToNothingIsNoReasonForARemark) {
-  const auto start = startOf(PushedAfterDecay{}, {.x = {2}});
-  const MeasuredRun run = measuredRun(PushedAfterDecay{}, start, 6, embedded(1e-3));
+    const auto from_push = 10.0 * (p.t - 3.0);
+    const auto growth = 10.0 * tanh(10.0 * (p.t - 4.5)) - 20.0 * (1.0 - tanh(10.0 * (p.t - 2.5)));
+    return growth * (p.x[0] - 1.0) + 5.0 * exp(-from_push * from_push);
+  }};
+  const MeasuredRun run = measuredRun(problem, startOf(problem, {.x = {2}}), 6, embedded(1e-3));
   EXPECT_GT(std::abs(run.second.state.x[0] - 1), 0.1) << "it is pushed from the rest";
   EXPECT_EQ(run.bar.remark, "");
 }

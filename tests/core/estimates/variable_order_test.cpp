@@ -110,24 +110,15 @@ TEST(VariableOrder, FailuresInTheFirstStepShortenItOnly) {
   EXPECT_LE(3 * free.steps_accepted, 4 * fixed.steps_accepted);
 }
 
-/// tau x' = (t > on) - x, x(0) = 0: at rest, until an input that nobody declares is switched on.
-struct UndeclaredStep {
-  double on, tau;
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = ((p.t > T(on) ? T(1) : T(0)) - p.x[0]) / tau - p.k[0];
-  }
-};
-
-// At rest the lowest member is the cheapest one. Its strictness is 1e5 and more, and at the jump errors fall with h
-// only.
+// The motion rests until an input that nobody declares is switched on. At rest the lowest member is the cheapest one.
+// Its strictness is 1e5 and more, and at the jump errors fall with h only.
 TEST(VariableOrder, PassesAJumpOfTheRates) {
   for (const double tau : {1.0, 1e-2, 1e-3, 1e-5}) {
+    const FirstOrder problem{
+        [tau]<class T>(const Point<T>& p) { return ((p.t > T(0.3) ? T(1) : T(0)) - p.x[0]) / tau; }};
     for (const char* method : {"radau_iia_1", "radau_iia_3", "radau_iia_5", "lobatto_iiic_3"}) {
       for (const double tol : {1e-4, 1e-6, 1e-9}) {
         SCOPED_TRACE(std::string(method) + " tau " + std::to_string(tau) + " tol " + std::to_string(tol));
-        const UndeclaredStep problem{0.3, tau};
         const auto s =
             variableRun(problem, State<double>(problem.sizes()), 2, makeMethods<double>(method, 13, 3), variable(tol));
         ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;

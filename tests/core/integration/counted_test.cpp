@@ -19,20 +19,15 @@ namespace {
 constexpr int kOfStart = 1;
 
 /// x' = -rate x, and from t = 0.09 on faster by a factor of 1.8 (or another one).
-struct Faster {
-  double factor = 1.8;
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = (p.t > T(0.09) ? -1e4 * factor : -1e4) * p.x[0] - p.k[0];
-  }
-};
+auto faster(double factor = 1.8) {
+  return FirstOrder{[factor]<class T>(const Point<T>& p) { return (p.t > T(0.09) ? -1e4 * factor : -1e4) * p.x[0]; }};
+}
 
 // Two steps of the midpoint rule, h = 0.1. The first one needs one iteration. In the second one the kept matrix is 1
 // + 500 instead of 1 + 900, so residuals shrink by 400/501 = 0.798 until the Jacobian is evaluated again. This
 // follows the paper's (3.2) and (3.4), iteration by iteration.
 TEST(PapersNewton, FollowsItsRules) {
-  const auto start = startOf(Faster{}, {.x = {1}});
+  const auto start = startOf(faster(), {.x = {1}});
   const auto run = [&](double tolerance, double limit, int after, int most) {
     IntegratorOptions o = fixedSteps(0.1);
     o.newton.kind = parseId<NewtonKind>("paper_rule");  // `modified` would go on to round-off
@@ -42,7 +37,7 @@ TEST(PapersNewton, FollowsItsRules) {
     o.newton.max_iterations = most;
     o.predictor = Predictor::kAcceleration;
     o.jacobian_point = JacobianPoint::kStart;
-    const auto solution = integrate<double>(Faster{}, start, 0.2, makeTableau<double>("gauss_1"), o);
+    const auto solution = integrate<double>(faster(), start, 0.2, makeTableau<double>("gauss_1"), o);
     EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
     return solution.counters;
   };
@@ -64,12 +59,12 @@ TEST(PapersNewton, FollowsItsRules) {
 // With 2.5 times the rate increments grow by 1.5: Newton fails and starts again with a new Jacobian. The step counts
 // all of its iterations.
 TEST(Counted, IterationsOfStepsAreThoseOfTheRun) {
-  const auto start = startOf(Faster{}, {.x = {1}});
+  const auto start = startOf(faster(), {.x = {1}});
   for (const auto kind : {NewtonKind::kSimplified, NewtonKind::kModified}) {
     IntegratorOptions o = fixedSteps(0.1);
     o.newton.kind = kind;
     o.predictor = Predictor::kAcceleration;
-    Integrator<double> integrator(makeSystem<double>(Faster{2.5}), makeTableau<double>("gauss_1"), o);
+    Integrator<double> integrator(makeSystem<double>(faster(2.5)), makeTableau<double>("gauss_1"), o);
     std::int64_t sum = 0;
     Monitor<double> monitor;
     monitor.accepted = [&](const StepRecord<double>& s) { sum += s.newton_iterations; };

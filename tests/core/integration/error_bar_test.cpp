@@ -94,19 +94,13 @@ TEST(ErrorBar, CountsTolerancesOfTheSmallerResult) {
   }
 }
 
-/// y' = -y until t = 1, then no number.
-struct EndsAtOne {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = (p.t > T(1) ? std::numeric_limits<double>::quiet_NaN() : -1.0) * p.x[0] - p.k[0];
-  }
-};
-
 TEST(ErrorBar, IsUnknownIfTheSecondIntegrationFails) {
-  const auto start = startOf(EndsAtOne{}, {.x = {1}}), result = startOf(EndsAtOne{}, {.t = 2});
+  const FirstOrder until_one{[]<class T>(const Point<T>& p) {
+    return (p.t > T(1) ? std::numeric_limits<double>::quiet_NaN() : -1.0) * p.x[0];
+  }};
+  const auto start = startOf(until_one, {.x = {1}}), result = startOf(until_one, {.t = 2});
   const auto options = adaptive(1e-4);
-  auto second = secondOf(makeSystem<double>(EndsAtOne{}), options);
+  auto second = secondOf(makeSystem<double>(until_one), options);
   Solution<double> other;
   const ErrorBar bar = measureErrorBar(result, second, start, options.tolerances, {}, other);
   EXPECT_FALSE(bar.known());
@@ -228,24 +222,16 @@ TEST(ErrorBar, CoversTheRoundOffOfSwitchingFunctions) {
   EXPECT_NEAR(m.bar.x[1], distance + 40 * 2 * 2.22e-16 * control.level / control.width, 0.3 * m.bar.x[1]);
 }
 
-/// u'' = -u, wherever it begins in time.
-struct TimelessOscillator {
-  Sizes sizes() const { return {.nu = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.u[0] = -p.u[0] - p.a[0];
-  }
-};
-
 // Numbers of 1e9 and more, as seconds since 1970, have few digits for a step.
 TEST(ErrorBar, CoversTheTimeThatRoundingLoses) {
+  const SecondOrder oscillator{[](const auto& p) { return -p.u[0]; }};
   int too_small = 0, runs = 0;
   std::vector<double> parts;  // bar over error
   for (const double t0 : {1e9, 1.7e9, 1e11, 1e12}) {
     for (double length = 1.3; length < 14; length += 0.17) {
-      const auto start = startOf(TimelessOscillator{}, {.t = t0, .v = {1}});
+      const auto start = startOf(oscillator, {.t = t0, .v = {1}});
       const double t_end = t0 + length;
-      const MeasuredRun m = measuredRun(TimelessOscillator{}, start, t_end, embedded(1e-8));
+      const MeasuredRun m = measuredRun(oscillator, start, t_end, embedded(1e-8));
       const double error =
           std::hypot(m.first.state.u[0] - std::sin(t_end - t0), m.first.state.v[0] - std::cos(t_end - t0));
       const double bar = std::hypot(m.bar.u[0], m.bar.v[0]);

@@ -99,22 +99,19 @@ TEST(Integrator, ARunStopsWhereItsCallerSays) {
   EXPECT_EQ(integrator.integrate(decayStart(), 1.0).outcome, Outcome::kSuccess);
 }
 
-struct NotFinite {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  double from;
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::sqrt;
-    r.x[0] = sqrt(T(from - p.t)) - p.k[0];  // NaN for t > from
-  }
-};
-
 TEST(Integrator, NotANumberIsNamed) {
-  const State<double> start(NotFinite{-1}.sizes());
-  const auto at_once = integrate<double>(NotFinite{-1}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  const auto run = [](double until) {
+    const FirstOrder problem{[until](const auto& p) {
+      using std::sqrt;
+      return sqrt(until - p.t);
+    }};
+    const State<double> start(problem.sizes());
+    return integrate<double>(problem, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  };
+  const auto at_once = run(-1);
   EXPECT_EQ(at_once.outcome, Outcome::kNotFinite);
   EXPECT_TRUE(contains(at_once.detail, "row 0"));
-  const auto later = integrate<double>(NotFinite{0.5}, start, 1, makeTableau<double>("radau_iia_2"), adaptive(1e-6));
+  const auto later = run(0.5);
   EXPECT_EQ(later.outcome, Outcome::kNotFinite) << later.detail;
   EXPECT_NEAR(later.state.t, 0.5, 1e-3);
 }

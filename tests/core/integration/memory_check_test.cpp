@@ -68,19 +68,15 @@ TEST(MemoryCheck, NoiseIsRefusedAboveEightDigitsOnly) {
   EXPECT_EQ(refusalOfRun(Noisy{0}, 1), "");
 }
 
-/// Not finite for x > 1: where a residual is not defined, nothing is compared.
-struct RootDomain {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::sqrt;
-    r.x[0] = -sqrt(1.0 - p.x[0]) - 1.0 - p.k[0];
-  }
-};
+// Not finite for x > 1: where a residual is not defined, nothing is compared.
 TEST(MemoryCheck, PointsOutsideOfTheDomainAreNotJudged) {
-  EXPECT_EQ(refusalOfRun(RootDomain{}, 0.5), "");
-  const auto start = startOf(RootDomain{}, {.x = {1}});
-  EXPECT_NO_THROW(requireNoMemory(*makeSystem<double>(RootDomain{}, {}), start, 0.5));
+  const FirstOrder problem{[](const auto& p) {
+    using std::sqrt;
+    return -sqrt(1.0 - p.x[0]) - 1.0;
+  }};
+  EXPECT_EQ(refusalOfRun(problem, 0.5), "");
+  const auto start = startOf(problem, {.x = {1}});
+  EXPECT_NO_THROW(requireNoMemory(*makeSystem<double>(problem, {}), start, 0.5));
 }
 
 }  // namespace

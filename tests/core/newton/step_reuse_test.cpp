@@ -15,15 +15,6 @@ constexpr int kOfStart = 1;
 
 NewtonKind newtonNamed(std::string_view id) { return parseId<NewtonKind>(id); }
 
-/// x' = 5 x (1 - x): the Jacobian changes along the solution, and so do the steps.
-struct Logistic {
-  Sizes sizes() const { return {.nu = 0, .nx = 1, .nz = 0, .constraints = 0}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    r.x[0] = 5.0 * p.x[0] * (1.0 - p.x[0]) - p.k[0];
-  }
-};
-
 template <class P>
 Taken stepsOf(const P& problem, double x0, double t_end, std::string_view newton, IntegratorOptions o) {
   o.newton.kind = newtonNamed(newton);
@@ -48,14 +39,16 @@ TEST(ReuseByStep, CountsTheJacobiansOfFixedSteps) {
 // With step doubling: both half steps work with the Jacobian of their attempt, and an attempt whose size is not that of
 // the one before keeps the former Jacobian.
 TEST(ReuseByStep, CountsAttemptsOfChangingSteps) {
+  // The Jacobian changes along the solution, and so do the steps.
+  const FirstOrder logistic{[](const auto& p) { return 5.0 * p.x[0] * (1.0 - p.x[0]); }};
   for (const std::string_view method : {"modified", "broyden"}) {
     IntegratorOptions o = adaptive(1e-6);
     o.step.control = StepControl::kPaper;
     o.step.estimate = ErrorEstimate::kDoubling;
     o.step.h = 1e-3;
     const std::string name(method);
-    const Taken each = stepsOf(Logistic{}, 0.01, 3, name + "_each_step", o);
-    const Taken change = stepsOf(Logistic{}, 0.01, 3, name + "_step_change", o);
+    const Taken each = stepsOf(logistic, 0.01, 3, name + "_each_step", o);
+    const Taken change = stepsOf(logistic, 0.01, 3, name + "_step_change", o);
     const auto& c = each.solution.counters;
     const auto attempts = c.steps_accepted + c.steps_rejected_error + c.steps_rejected_newton;
     EXPECT_EQ(c.jacobians, kOfStart + attempts + c.newton_restarts) << name;

@@ -121,19 +121,13 @@ TEST(UserSystem, TimesAreFiniteAndInOrder) {
   EXPECT_EQ(integrator.integrate(riccatiStart<double>(), 0.0).outcome, Outcome::kSuccess) << "no time at all";
 }
 
-/// sqrt(x) - k is not defined for x < 0.
-struct Root {
-  Sizes sizes() const { return {.nx = 1}; }
-  template <class T>
-  void residual(const Point<T>& p, Rows<T> r) const {
-    using std::sqrt;
-    r.x[0] = sqrt(p.x[0]) - p.k[0];
-  }
-};
-
 TEST(UserSystem, NamesTheEvaluationThatIsNotFiniteAtTheStart) {
-  const auto start = startOf(Root{}, {.x = {-1}});
-  const auto s = integrate<double>(Root{}, start, 1, makeTableau<double>("radau_iia_3"), adaptive(1e-6));
+  const FirstOrder root{[](const auto& p) {
+    using std::sqrt;
+    return sqrt(p.x[0]);
+  }};
+  const auto start = startOf(root, {.x = {-1}});
+  const auto s = integrate<double>(root, start, 1, makeTableau<double>("radau_iia_3"), adaptive(1e-6));
   EXPECT_EQ(s.outcome, Outcome::kNotFinite);
   EXPECT_TRUE(contains(s.detail, "at the start, t = 0: row 0: residual"));
   EXPECT_EQ(s.counters.steps_accepted + s.counters.steps_rejected_error + s.counters.steps_rejected_newton, 0);
