@@ -179,11 +179,6 @@ TEST_F(Verbs, PaperStopsWhenInterrupted) {
   EXPECT_FALSE(exists("quick/report/index.html"));
 }
 
-TEST_F(Verbs, PaperRefusesMisuse) {
-  EXPECT_EQ(program({"paper", "--jobs", "-1"}).status, 2);
-  EXPECT_EQ(program({"paper", "order"}).status, 2) << "takes no study";
-}
-
 // Every study that `paper` runs can be loaded in both variants and has runs; the quick variant does not have more.
 TEST(Studies, LoadInBothVariants) {
   for (const auto& entry : builtinStudies()) {

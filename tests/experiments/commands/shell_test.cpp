@@ -135,12 +135,6 @@ TEST_F(Completion, InZsh) {
   EXPECT_EQ(ask("irk tableau ", "export"), "found\n");
 }
 
-TEST_F(Completion, OfUnknownShellsIsRefused) {
-  const Ended none = program({"completion", "fsh"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_TRUE(containsAll(none.err, {"shell", "fsh", "bash, zsh, fish"})) << none.err;
-}
-
 // The examples of `solve` that write no file.
 TEST(Help, ExamplesRun) {
   std::istringstream lines(program({"solve", "--help"}).out);

@@ -41,13 +41,9 @@ TEST_F(Verbs, RunOfAMistakeIsStatusTwo) {
 
 TEST_F(Verbs, AFolderThatCannotBeMadeIsStatusTwo) {
   const std::string file = study() + "/results";  // below a file
-  const std::vector<std::string> verbs[] = {{"run", study()}, {"report"}, {"plot", "drift"}};
-  for (auto arguments : verbs) {
-    arguments.insert(arguments.end(), {"--results", file});
-    const Ended ended = program(arguments);
-    EXPECT_EQ(ended.status, 2) << arguments[0];
-    EXPECT_TRUE(containsAll(ended.err, {"irk: ", file})) << arguments[0];
-  }
+  expectOneLine({{2, {"run", study(), "--results", file}, file},
+                 {2, {"report", "--results", file}, file},
+                 {2, {"plot", "drift", "--results", file}, file}});
 }
 
 TEST_F(Verbs, OneThreadAndSeveralMakeTheSame) {

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <sstream>
 
-#include "experiments/commands/cli.h"
 #include "experiments/compare/folders.h"
 #include "experiments/runs/run_table.h"
 #include "tests/experiments/compared_tables.h"
+#include "tests/experiments/program.h"
 
 namespace irk::compare {
 namespace {
@@ -282,16 +281,9 @@ TEST(Compare, TheLevelIsThatOfAllRuns) {
 
 // --- The verb.
 
-struct Ended {
-  int status;
-  std::string out, err;
-};
-Ended compareFolders(const std::vector<std::string>& arguments) {
-  std::vector<std::string> all{"compare"};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  std::ostringstream out, err;
-  const int status = runProgram(all, {out, err});
-  return {status, out.str(), err.str()};
+Ended compareFolders(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "compare");
+  return program(arguments);
 }
 
 TEST(CompareVerb, StudiesAndTreesByStatus) {
@@ -313,15 +305,13 @@ TEST(CompareVerb, StudiesAndTreesByStatus) {
   const Ended less = compareFolders({at("one"), at("less")});
   EXPECT_EQ(less.status, 1);
   EXPECT_TRUE(containsAll(less.out, {"steps: only in the first"}));
-  for (const auto& bad : std::vector<std::vector<std::string>>{{at("one"), at("nowhere")},
-                                                               {at("one"), at("one/order/runs.csv")},
-                                                               {at("one"), at("same"), "--times", "5"},
-                                                               {at("one"), at("same"), "--errors", "0.5"},
-                                                               {at("one"), at("same"), "--alpha", "1"},
-                                                               {at("one"), at("same"), "--counters", "-1%"},
-                                                               {at("one")}}) {
-    EXPECT_EQ(compareFolders(bad).status, 2) << bad.back();
-  }
+  expectOneLine({{2, {"compare", at("one"), at("nowhere")}, "nowhere"},
+                 {2, {"compare", at("one"), at("one/order/runs.csv")}, "runs.csv"},
+                 {2, {"compare", at("one"), at("same"), "--times", "5"}, "times"},
+                 {2, {"compare", at("one"), at("same"), "--errors", "0.5"}, "errors"},
+                 {2, {"compare", at("one"), at("same"), "--alpha", "1"}, "alpha"},
+                 {2, {"compare", at("one"), at("same"), "--counters", "-1%"}, "counters"},
+                 {2, {"compare", at("one")}, "second"}});
 }
 
 }  // namespace

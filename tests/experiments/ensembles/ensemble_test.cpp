@@ -238,30 +238,17 @@ TEST(EnsembleVerb, RefusedMembersAreRows) {
 }
 
 TEST(EnsembleVerb, RefusesWhatNoMemberCanHave) {
-  const struct {
-    std::vector<std::string> arguments;
-    std::string part;
-  } cases[] = {
-      {{"kepler", "--set", "e=0.5..1.5:3"}, "0.99"},
-      {{"kepler", "--set", "a=1"}, "'a'"},
-      {{"kepler", "--start", "q3=1"}, "'q3'"},
-      {{"kepler", "--start", "q1=x"}, "'x'"},
-      {{"kepler", "--start", "q1=1,x"}, "'x'"},
-      {{"kepler", "--method", "gauss_333"}, "gauss_333"},
-      {{"kepler", "--method", "radau_iia"}, "radau_iia_5"},
-      {{"kepler", "--threads", "2"}, "--jobs"},
-      {{"kepler", "--reference"}, "references"},
-      {{"pendulum", "--constraints", "independent", "--start", "x=1"}, "independent"},
-      {{"kepler", "--single"}, "--single"},
-  };
-  for (const auto& c : cases) {
-    std::vector<std::string> arguments = {"ensemble"};
-    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
-    const auto run = program(arguments);
-    EXPECT_EQ(run.status, 2) << c.part;
-    EXPECT_EQ(run.out, "") << c.part;
-    EXPECT_NE(run.err.find(c.part), std::string::npos) << run.err;
-  }
+  expectOneLine({{2, {"ensemble", "kepler", "--set", "e=0.5..1.5:3"}, "0.99"},
+                 {2, {"ensemble", "kepler", "--set", "a=1"}, "'a'"},
+                 {2, {"ensemble", "kepler", "--start", "q3=1"}, "'q3'"},
+                 {2, {"ensemble", "kepler", "--start", "q1=x"}, "'x'"},
+                 {2, {"ensemble", "kepler", "--start", "q1=1,x"}, "'x'"},
+                 {2, {"ensemble", "kepler", "--method", "gauss_333"}, "gauss_333"},
+                 {2, {"ensemble", "kepler", "--method", "radau_iia"}, "radau_iia_5"},
+                 {2, {"ensemble", "kepler", "--threads", "2"}, "--jobs"},
+                 {2, {"ensemble", "kepler", "--reference"}, "references"},
+                 {2, {"ensemble", "pendulum", "--constraints", "independent", "--start", "x=1"}, "independent"},
+                 {2, {"ensemble", "kepler", "--single"}, "--single"}});
 }
 
 }  // namespace

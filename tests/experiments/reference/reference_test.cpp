@@ -2,13 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
-#include "experiments/commands/cli.h"
 #include "experiments/reference/agreement.h"
 #include "experiments/reference/integration.h"
 #include "experiments/reference/tables.h"
 #include "experiments/runs/fields.h"
+#include "tests/experiments/program.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -187,16 +186,9 @@ TEST(Compute, StatesWhatTheRunsAgreeOn) {
   }
 }
 
-struct Result {
-  int status;
-  std::string out, err;
-};
-
-Result reference(std::vector<std::string> arguments) {
+Ended reference(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "reference");
-  std::ostringstream out, err;
-  const int status = runProgram(arguments, {out, err});
-  return {status, out.str(), err.str()};
+  return program(arguments);
 }
 
 void replaceIn(const std::filesystem::path& file, const std::string& from, const std::string& to) {
@@ -227,12 +219,6 @@ TEST(ReferenceCommand, WritesAndChecks) {
   std::filesystem::remove(file);
   EXPECT_EQ(check().status, 1) << "no file";
   EXPECT_FALSE(std::filesystem::exists(file)) << "checking writes nothing";
-}
-
-TEST(ReferenceCommand, RefusesUnknownScenes) {
-  const auto run = reference({"kap"});
-  EXPECT_EQ(run.status, kMisuseStatus);
-  EXPECT_TRUE(containsAll(run.err, {"kap", "did you mean 'kaps'"}));
 }
 
 }  // namespace

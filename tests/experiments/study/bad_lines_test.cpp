@@ -18,13 +18,6 @@
 namespace irk {
 namespace {
 
-using Line = std::vector<std::string>;
-struct BadLine {
-  int status;
-  Line arguments;  ///< '@' stands for the test's folder
-  std::string word;
-};
-
 // The files that the program reads in these tests.
 class Lines : public testing::Test {
  protected:
@@ -55,25 +48,7 @@ class Lines : public testing::Test {
     fs::resize_file(folder_.path() / "large.toml", std::uintmax_t{1} << 40U);  // takes no space on disk
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
-  Line withFolder(Line line) const {
-    for (auto& argument : line) {
-      const auto at = argument.find('@');
-      if (at != std::string::npos) argument.replace(at, 1, folder_.path().string());
-    }
-    return line;
-  }
-  void expectOneLine(const std::vector<BadLine>& lines) const {
-    for (const auto& [status, arguments, word] : lines) {
-      std::string text;
-      for (const auto& argument : arguments) text += argument + " ";
-      const Ended ended = program(withFolder(arguments));
-      EXPECT_EQ(ended.status, status) << text << "\n" << ended.err;
-      EXPECT_EQ(ended.out, "") << text;
-      EXPECT_TRUE(ended.err.starts_with("irk: ")) << text << "\n" << ended.err;
-      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << text << "\n" << ended.err;
-      EXPECT_TRUE(contains(ended.err, word)) << text;
-    }
-  }
+  void expectOneLine(const std::vector<BadLine>& lines) const { irk::expectOneLine(lines, folder_.path()); }
 
   TemporaryFolder folder_;
 };
@@ -96,6 +71,7 @@ TEST_F(Lines, Verbs) {
                  {2, {"list", "scenes", "methods"}, "methods"},
                  {2, {"list", ""}, "list"},
                  {2, {"paper", "order"}, "order"},
+                 {2, {"completion", "fsh"}, "fsh", {"shell", "bash, zsh, fish"}},
                  {2, {"merge"}, "folders"},
                  {2, {"compare", "@/study"}, "second"},
                  {2, {"solve"}, "scene is required"},
@@ -174,12 +150,13 @@ TEST_F(Lines, ValuesOutOfRange) {
                  {2, {"solve", "kepler", "--scalar", "mp50", "--digits", "60"}, "scalar"},
                  {2, {"run", "@/good.toml", "--jobs", "-1"}, "jobs = '-1' is out of range: an integer from 0 to 1024"},
                  {2, {"run", "@/good.toml", "--jobs", "1e99"}, "1e99"},
+                 {2, {"paper", "--jobs", "-1"}, "jobs"},
                  {2, {"run", "@/good.toml", "--shard", "0/2"}, "shard"},
                  {2, {"run", "@/good.toml", "--shard", "3/2"}, "shard = '3' is out of range: an integer from 1 to 2"},
                  {2, {"run", "@/good.toml", "--shard", "1"}, "i/n"},
                  {2, {"tableau", "show", "gauss_2", "--digits", "76"}, "76"},
                  {2, {"tableau", "check", "gaus_2"}, "gaus_2"},
-                 {2, {"reference", "kap", "--check"}, "kap"},
+                 {2, {"reference", "kap", "--check"}, "'kap'; did you mean 'kaps'?"},
                  {2, {"compare", "@/study", "@/study", "--alpha", "1"}, "alpha"}});
 }
 
@@ -290,7 +267,7 @@ TEST_F(Lines, FiguresAndReports) {
 }
 
 TEST_F(Lines, AStudyOfRefusedRunsFails) {
-  const Ended ended = program(withFolder({"run", "@/refused.toml", "--results", "@/results"}));
+  const Ended ended = program(withFolder({"run", "@/refused.toml", "--results", "@/results"}, folder_.path()));
   EXPECT_EQ(ended.status, 1) << ended.out << ended.err;
   EXPECT_TRUE(containsAll(ended.err, {"irk: refused: all 1 runs were refused", "lobatto_iiib_3"}));
 }
@@ -333,7 +310,7 @@ TEST_F(Lines, GoodLinesStayGood) {
   for (const auto& line : lines) {
     std::string text;
     for (const auto& argument : line) text += argument + " ";
-    const Ended ended = program(withFolder(line));
+    const Ended ended = program(withFolder(line, folder_.path()));
     EXPECT_EQ(ended.status, 0) << text << ended.err << ended.out;
   }
 }
