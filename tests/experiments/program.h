@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ inline Ended program(const std::vector<std::string>& arguments) {
   }
   return {status, out.str(), err.str()};
 }
+
+/// What `irk solve arguments... --json` prints; the test fails if it ends with another status.
+nlohmann::json solvedJson(std::vector<std::string> arguments, int status = 0);
 
 using Line = std::vector<std::string>;
 

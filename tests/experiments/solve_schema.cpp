@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/experiments/program.h"
+
 namespace irk {
 namespace {
 
@@ -83,6 +85,14 @@ std::vector<std::string> againstSolveSchema(const std::string& output) {
     wrong.insert(wrong.end(), more.begin(), more.end());
   }
   return wrong;
+}
+
+SchemaJson solvedJson(std::vector<std::string> arguments, int status) {
+  arguments.insert(arguments.begin(), "solve");
+  arguments.emplace_back("--json");
+  const Ended run = program(arguments);
+  EXPECT_EQ(run.status, status) << run.err;
+  return SchemaJson::parse(run.out);
 }
 
 }  // namespace irk

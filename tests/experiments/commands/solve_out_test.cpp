@@ -32,15 +32,9 @@ double cell(const Table& table, std::size_t row, std::string_view column) {
   return std::stod(table.rows[row][table.column(column)]);
 }
 
-Json solvedFile(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "solve");
-  arguments.emplace_back("--json");
-  return Json::parse(program(arguments).out);
-}
-
 TEST_F(SolveOut, WithoutPointsTheRowsAreTheSteps) {
   const Table rows = table({"kepler", "--tol", "1e-8", "--t-end", "5"});
-  const Json run = solvedFile({"kepler", "--tol", "1e-8", "--t-end", "5"});
+  const Json run = solvedJson({"kepler", "--tol", "1e-8", "--t-end", "5"});
   EXPECT_EQ(rows.rows.size(), run["steps"]["accepted"].get<std::size_t>() + 1);
   double time = 0;
   for (std::size_t i = 1; i < rows.rows.size(); ++i) time += cell(rows, i, "h");
@@ -59,7 +53,7 @@ TEST_F(SolveOut, PointsAreEquallySpacedAndOnTheSolution) {
   for (const std::size_t i : {1u, 4u, 7u, 8u}) {
     auto part = run;
     part.back() = rows.rows[i][0];
-    const Json end = solvedFile(part);
+    const Json end = solvedJson(part);
     EXPECT_NEAR(cell(rows, i, "theta"), end["u"][0].get<double>(), 1e-7) << i;
     EXPECT_NEAR(cell(rows, i, "phi'"), end["v"][1].get<double>(), 1e-6) << i;
   }
@@ -115,7 +109,7 @@ TEST_F(SolveOut, BarsAreTheErrorsOfTheRows) {
 // A switch has a row before and one after it; between them the state may jump.
 TEST_F(SolveOut, SwitchesHaveARowBeforeAndAfter) {
   const Table rows = table({"stick_slip", "--tol", "1e-8", "--points", "101"});
-  const Json run = solvedFile({"stick_slip", "--tol", "1e-8"});
+  const Json run = solvedJson({"stick_slip", "--tol", "1e-8"});
   ASSERT_EQ(run["switches"].size(), 6u);
   EXPECT_EQ(rows.rows.size(), 101u + 2 * 6);
   const std::size_t switches = rows.column("switches");
