@@ -16,7 +16,7 @@ class FmuArrays : public WithOwnCache {};
 // u'' = -c K u / m with K = tridiag(-1, 2, -1): its vectors sin(j k pi / 4), j = 1, 2, 3, swing alone, with the squares
 // of their frequencies 2 c (1 - cos(k pi / 4)) / m. The start is k = 2.
 TEST_F(FmuArrays, ArraysAreTheirElements) {
-  const auto setup = makeSetup<double>(fmuSpec(own::loadFile(fmu("chain", 3))));
+  const auto setup = makeSetup<double>(radauSpec(own::loadFile(fmu("chain", 3))));
   EXPECT_EQ(setup.scene.names, (std::vector<std::string>{"u[1]", "u[2]", "u[3]", "v[1]", "v[2]", "v[3]"}));
   const auto made = integrated(setup);
   ASSERT_EQ(made.outcome, Outcome::kSuccess) << made.detail;
@@ -41,7 +41,7 @@ TEST_F(FmuArrays, ArraysAreTheirElements) {
 
 // Elements are set, and u[3] keeps its start: an array is given to the FMU as a whole. The start is then k = 3.
 TEST_F(FmuArrays, ElementsOfArraysAreSet) {
-  auto spec = fmuSpec(own::loadFile(fmu("chain", 3)));
+  auto spec = radauSpec(own::loadFile(fmu("chain", 3)));
   spec.settings = {{"u[1]", "-1"}, {"u[2]", "1.4142135623730951"}, {"m[1]", "4"}, {"m[2]", "4"}, {"m[3]", "4"}};
   const auto made = integrated(makeSetup<double>(spec));
   ASSERT_EQ(made.outcome, Outcome::kSuccess) << made.detail;

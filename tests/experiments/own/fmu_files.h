@@ -1,13 +1,11 @@
 // FMUs of tests/fmus, and damaged copies of them.
 #pragma once
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "experiments/own/files.h"
-#include "experiments/runs/setup.h"
 #include "tests/experiments/own/own_files.h"
 
 namespace irk {
@@ -16,20 +14,8 @@ inline std::string fmu(const std::string& name, int version) {
   return IRK_FMUS "/fmu_" + name + "_" + std::to_string(version) + ".fmu";
 }
 
-inline RunSpec fmuSpec(const std::string& scene, double tolerance = 1e-8) {
-  RunSpec spec;
-  spec.scene = scene;
-  spec.method = "radau_iia_3";
-  spec.options.tolerances.rtol = spec.options.tolerances.atol = tolerance;
-  return spec;
-}
-
-inline Solution<double> integrated(const Setup<double>& setup) {
-  auto integrator = setup.integrator();
-  return integrator.integrate(setup.scene.start, setup.scene.t_end);
-}
 inline Solution<double> ofFmu(const std::string& file, double tolerance = 1e-8) {
-  return integrated(makeSetup<double>(fmuSpec(own::loadFile(file), tolerance)));
+  return integrated(makeSetup<double>(radauSpec(own::loadFile(file), tolerance)));
 }
 
 /// FMUs that are not as they should be.
@@ -49,12 +35,6 @@ class DamagedFmu : public OwnFiles {
     const std::string command =
         "cd " + (folder_.path() / name).string() + " && " IRK_CMAKE " -E tar cf " + archive + " --format=zip *";
     ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  void expectRefused(const std::string& file, const std::string& text, const std::string& environment = {}) {
-    const Ran ran = irk("solve " + file + " --method radau_iia_3 --tol 1e-6", environment);
-    EXPECT_EQ(ran.status, 2) << file << ": " << ran.text;
-    EXPECT_NE(ran.text.find(text), std::string::npos) << file << ": " << ran.text;
-    EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << file << ": " << ran.text;
   }
 };
 

@@ -52,13 +52,13 @@ TEST_F(FmuSteps, OtherIntegratorsCarryThemOut) {
 TEST_F(FmuSteps, TheErrorBarHoldsAndARunAgainHasTheSameBits) {
   for (const int version : {2, 3}) {
     const auto id = own::loadFile(fmu("charts", version));
-    auto spec = fmuSpec(id, 1e-6);
+    auto spec = radauSpec(id, 1e-6);
     spec.error_bar = ErrorBarUse::kMeasured;
     const RunRecord record = execute(resolved(spec));
     EXPECT_EQ(record.outcome, "success") << record.detail;
     EXPECT_GE(2 * record.error_bar.x[0], std::abs(record.x[0] - coordinate(10))) << version;
     EXPECT_LT(record.error_bar.tolerances, 100) << version;
-    const auto setup = makeSetup<double>(fmuSpec(id));
+    const auto setup = makeSetup<double>(radauSpec(id));
     const auto first = integrated(setup), second = integrated(setup);
     EXPECT_EQ(first.state.x[0], second.state.x[0]) << version;
     EXPECT_EQ(first.counters.residuals, second.counters.residuals) << version;

@@ -48,7 +48,7 @@ struct BallTwin {
 
 template <class Problem>
 Solution<double> ofTwin(double tolerance = 1e-8) {
-  return integrated(setUp(fmuSpec("", tolerance), framedScene<double>(Problem{})));
+  return integrated(setUp(radauSpec("", tolerance), framedScene<double>(Problem{})));
 }
 
 double evaluations(const Solution<double>& s) {
@@ -113,7 +113,7 @@ TEST_F(Fmu, HysteresisBrakesAndReleases) {
 // The second integration begins at the start again: an FMU is brought back there.
 TEST_F(Fmu, ARunAgainHasTheSameBits) {
   for (const int version : {2, 3}) {  // by its first state, and by a new instance
-    const auto setup = makeSetup<double>(fmuSpec(own::loadFile(fmu("stick_slip", version))));
+    const auto setup = makeSetup<double>(radauSpec(own::loadFile(fmu("stick_slip", version))));
     const auto first = integrated(setup), second = integrated(setup);
     EXPECT_EQ(first.state.u[0], second.state.u[0]) << version;
     EXPECT_EQ(first.state.v[0], second.state.v[0]) << version;
@@ -185,7 +185,7 @@ TEST_F(Fmu, OtherSolversFindTheSameEvents) {
   const auto id = own::loadFile(fmu("motor", 2));
   for (const char* method : {"radau_iia_3", "cvode_bdf", "ida_bdf"}) {
     for (const double tolerance : {1e-6, 1e-7, 1e-8}) {
-      auto spec = fmuSpec(id, tolerance);
+      auto spec = radauSpec(id, tolerance);
       spec.method = method;
       spec.formulation = Formulation::kIndex1;
       spec.error_bar = ErrorBarUse::kNone;

@@ -1,5 +1,4 @@
 // Scenes in shared libraries: irk/scene_c.h.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -14,15 +13,6 @@ namespace {
 
 const std::string kScenes = IRK_SCENES "/";
 
-RunSpec specOf(const std::string& scene) {
-  RunSpec spec;
-  spec.scene = scene;
-  spec.method = "radau_iia_3";
-  spec.options.tolerances.rtol = spec.options.tolerances.atol = 1e-8;
-  spec.t_end = 20;
-  return spec;
-}
-
 Vec<double> valuesAtEnd(const State<double>& s) {
   Vec<double> all(s.u.size() + s.v.size() + s.x.size() + s.z().size());
   all << s.u, s.v, s.x, s.z();
@@ -31,14 +21,14 @@ Vec<double> valuesAtEnd(const State<double>& s) {
 
 // The same equations in C++ and in C, whatever derivatives the library gives.
 TEST(ForeignScene, ARunEqualsThatOfTheSceneInCpp) {
-  const auto own = makeSetup<double>(specOf("kepler"));
-  auto expected = own.integrator();
-  const auto reference = expected.integrate(own.scene.start, 20);
+  const auto solutionOf = [](const std::string& scene) {
+    RunSpec spec = radauSpec(scene);
+    spec.t_end = 20;
+    return integrated(makeSetup<double>(spec));
+  };
+  const auto reference = solutionOf("kepler");
   for (const char* derivatives : {"differences", "full", "entries", "products"}) {
-    const auto id = own::loadFile(kScenes + "bodies_" + derivatives + ".so");
-    const auto foreign = makeSetup<double>(specOf(id));
-    auto integrator = foreign.integrator();
-    const auto made = integrator.integrate(foreign.scene.start, 20);
+    const auto made = solutionOf(own::loadFile(kScenes + "bodies_" + derivatives + ".so"));
     ASSERT_EQ(made.outcome, Outcome::kSuccess) << derivatives;
     EXPECT_LE((valuesAtEnd(made.state) - valuesAtEnd(reference.state)).cwiseAbs().maxCoeff(), 1e-6) << derivatives;
     const auto& counted = made.counters;
@@ -100,45 +90,33 @@ TEST_F(OwnFiles, ADamagedSceneInALibraryIsALine) {
       {"entries", "entries", "irk_scene_entries returns 9 entries; the Jacobian has 2 rows and 4 columns"},
       {"switch behind", "differences", "irk_scene_on_switch writes d[1], but d has 1 numbers"}};
   for (const auto& [damage, library, text] : cases) {
-    const Ran ran = irk("solve " + kScenes + "bodies_" + library + ".so --method radau_iia_3 --tol 1e-6",
-                        "IRK_DAMAGE='" + damage + "'");
-    EXPECT_EQ(ran.status, 2) << damage;
-    EXPECT_NE(ran.text.find(text), std::string::npos) << damage << ": " << ran.text;
-    EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << damage << ": " << ran.text;
+    SCOPED_TRACE(damage);
+    expectRefused(kScenes + "bodies_" + library + ".so", text, "IRK_DAMAGE='" + damage + "'");
   }
 }
 
 // x(3) = 2 (e^-1 + 1) e^-2 by hand: the state jumps at declared times, with every treatment of switches.
 TEST(ForeignScene, TheStateJumpsAtDeclaredTimes) {
   for (const auto& treatment : {Discontinuity::kLocate, Discontinuity::kIgnore}) {
-    RunSpec spec = specOf(own::loadFile(kScenes + "doses.so"));
+    RunSpec spec = radauSpec(own::loadFile(kScenes + "doses.so"));
     spec.t_end = 3;
     spec.discontinuity = treatment;
-    const auto setup = makeSetup<double>(spec);
-    auto integrator = setup.integrator();
-    const auto made = integrator.integrate(setup.scene.start, 3);
+    const auto made = integrated(makeSetup<double>(spec));
     ASSERT_EQ(made.outcome, Outcome::kSuccess) << made.detail;
     EXPECT_NEAR(made.state.x[0], 2 * (std::exp(-1.0) + 1) * std::exp(-2.0), 1e-7);
   }
 }
 
 TEST_F(OwnFiles, AJumpAtATimeWritesTheStateOnly) {
-  const Ran ran = irk("solve " + kScenes + "doses.so --method radau_iia_3 --tol 1e-6", "IRK_DAMAGE=behind");
-  EXPECT_EQ(ran.status, 2) << ran.text;
-  EXPECT_NE(ran.text.find("irk_scene_jump_at_time writes y[1], but y has 1 numbers"), std::string::npos) << ran.text;
+  expectRefused(kScenes + "doses.so", "irk_scene_jump_at_time writes y[1], but y has 1 numbers", "IRK_DAMAGE=behind");
 }
 
 TEST_F(OwnFiles, WhatIsNoSceneIsRefused) {
   write("text.so", "no library");
   std::filesystem::copy(IRK_SOLVERS "/euler_ode.so", folder_.path() / "solver.so");
-  const auto said = [this](const std::string& scene) {
-    const Ran ran = irk("solve " + scene + " --method radau_iia_3 --tol 1e-6");
-    EXPECT_EQ(ran.status, 2) << ran.text;
-    return ran.text;
-  };
-  EXPECT_NE(said("missing.so").find("missing.so"), std::string::npos);
-  EXPECT_NE(said("text.so").find("text.so: it cannot be loaded"), std::string::npos);
-  EXPECT_NE(said("solver.so").find("solver.so: it has no function 'irk_scene_version'"), std::string::npos);
+  expectRefused("missing.so", "missing.so");
+  expectRefused("text.so", "text.so: it cannot be loaded");
+  expectRefused("solver.so", "solver.so: it has no function 'irk_scene_version'");
 }
 
 // A function that fails during a run makes the step smaller; the run then ends as a failure.
@@ -173,18 +151,16 @@ TEST(ForeignScene, ConstraintsInFortran) {
   const auto id = own::loadFile(library);
   for (const auto formulation :
        {Formulation::kIndex3, Formulation::kIndex2, Formulation::kIndex2Projected, Formulation::kIndex1}) {
-    auto spec = specOf(id);
+    auto spec = radauSpec(id);
     spec.t_end = 2;
     spec.options.tolerances.rtol = spec.options.tolerances.atol = 1e-10;  // index 1 drifts
     spec.formulation = formulation;
-    const auto setup = makeSetup<double>(spec);
-    auto integrator = setup.integrator();
-    const auto made = integrator.integrate(setup.scene.start, 2);
+    const auto made = integrated(makeSetup<double>(spec));
     ASSERT_EQ(made.outcome, Outcome::kSuccess) << made.detail;
     EXPECT_NEAR(made.state.u[0], 0.7935661953, 1e-6);
     EXPECT_NEAR(made.state.z()[0], 17.90768206, 1e-4);
   }
-  auto spec = specOf(id);
+  auto spec = radauSpec(id);
   spec.formulation = Formulation::kGgl;
   EXPECT_NE(refusal([&] { makeSetup<double>(spec); }).find("formulation 'ggl'"), std::string::npos);
 }
