@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "experiments/report/report.h"
 #include "experiments/tables/table.h"
+#include "tests/experiments/report/answer_tables.h"
 #include "tests/experiments/support.h"
 #include "tests/experiments/svg.h"
 
@@ -18,26 +20,15 @@ namespace irk {
 
 inline constexpr AxisScale kLog = AxisScale::kLogarithmic, kLin = AxisScale::kLinear;
 
-using Cells = std::map<std::string, std::string>;
-
 inline std::string exact(double x) { return fmt::format("{}", x); }
 
 /// A folder with tables and the figures drawn from them.
 class Drawing {
  public:
-  /// Writes rows by column; columns that a row does not give get `other`.
+  /// Writes what tableOf makes.
   void put(const std::string& name, const std::vector<std::string>& columns, const std::vector<Cells>& rows,
            const std::string& other = "nan", const TableHead& head = {{"study", "made_up"}}) {
-    Table table{head, columns, {}};
-    for (const auto& cells : rows) {
-      TableRow row;
-      for (const auto& column : columns) {
-        const auto given = cells.find(column);
-        row.push_back(given == cells.end() ? other : given->second);
-      }
-      table.rows.push_back(row);
-    }
-    writeTable(folder_.path() / name, table);
+    writeTable(folder_.path() / name, tableOf(columns, rows, other, head));
   }
 
   /// Writes a table that is given as it stands in the file, below its head.
@@ -59,6 +50,14 @@ class Drawing {
   TemporaryFolder folder_;
   int count_ = 0;
 };
+
+/// Whether the figure has each of the texts.
+inline testing::AssertionResult says(const Svg& svg, const std::vector<std::string>& parts) {
+  for (const auto& part : parts) {
+    if (svg.occurrences(part) == 0) return testing::AssertionFailure() << "no \"" << part << "\" in the figure";
+  }
+  return testing::AssertionSuccess();
+}
 
 inline const std::vector<std::string> kRunColumns = {"key",
                                                      "scene",

@@ -2,18 +2,16 @@
 
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "experiments/base/time_left.h"
 #include "experiments/report/report.h"
-#include "experiments/runner/runner.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/study/builtin_studies.h"
 #include "experiments/study/study_reader.h"
 #include "irk/scene.h"
 #include "tests/experiments/analyses/analysis_tables.h"
+#include "tests/experiments/report/drawn.h"
 #include "tests/experiments/study_runs.h"
-#include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
@@ -62,63 +60,40 @@ TEST(Figures, HaveNoRawNotation) {
 }
 
 TEST(Figures, FailureMapsShowDigitsAndCauses) {
-  const TemporaryFolder folder;
-  Table runs;
-  runs.columns = {"scene", "settings", "method", "family", "stages", "h", "rtol", "outcome", "error"};
-  const auto add = [&](const char* stages, const char* h, const char* outcome, const char* error) {
-    runs.rows.push_back(
-        {"pendulum", "", std::string("radau_iia_") + stages, "radau_iia", stages, h, "1e-6", outcome, error});
-  };
-  add("2", "0.1", "success", "1e-3");
-  add("2", "0.01", "success", "0");
-  add("3", "0.1", "newton_failed", "nan");
-  add("3", "0.01", "timeout", "nan");
-  writeTable(folder.path() / "runs.csv", runs);
-  const auto out = folder.path() / "map";
-  std::ostringstream err;
-  ASSERT_TRUE(drawFigure("failure_map.gp",
-                         "data='" + folder.path().string() + "'; out='" + out.string() + "'; scene='pendulum'",
-                         IRK_SOURCE_DIR, err))
-      << err.str();
-  const std::string svg = readInputFile(out.string() + ".svg");
-  EXPECT_TRUE(containsAll(svg, {"Radau IIA", "Newton fails", "too slow", "correct digits"}));
-  EXPECT_EQ(svg.find("singular"), svg.npos) << "only causes that occur";
-  EXPECT_TRUE(std::filesystem::exists(out.string() + ".png"));
+  Drawing drawing;
+  drawing.put("runs.csv", R"(scene,settings,method,family,stages,h,rtol,outcome,error
+pendulum,,radau_iia_2,radau_iia,2,0.1,1e-6,success,1e-3
+pendulum,,radau_iia_2,radau_iia,2,0.01,1e-6,success,0
+pendulum,,radau_iia_3,radau_iia,3,0.1,1e-6,newton_failed,nan
+pendulum,,radau_iia_3,radau_iia,3,0.01,1e-6,timeout,nan
+)");
+  const Svg svg = drawing.draw("failure_map.gp", "scene='pendulum'");
+  EXPECT_TRUE(says(svg, {"Radau IIA", "Newton fails", "too slow", "correct digits"}));
+  EXPECT_EQ(svg.occurrences("singular"), 0) << "only causes that occur";
 }
 
 TEST(Figures, RobustnessShowsTheCollectionsAndSolversOfTheTable) {
-  const TemporaryFolder folder;
-  Table counts{{}, {"collection", "integrator", "tolerance", "runs", "right", "failed", "wrong", "unjudged"}, {}};
-  for (const char* collection : {"all", "ivp"}) {
-    for (const char* tolerance : {"all", "1e-4"}) {
-      counts.rows.push_back({collection, "variable", tolerance, "10", "7", "2", "1", "0"});
-    }
-  }
-  writeTable(folder.path() / "robustness.csv", counts);
-  const auto out = folder.path() / "robustness";
-  std::ostringstream err;
-  ASSERT_TRUE(drawFigure("robustness.gp", "data='" + folder.path().string() + "'; out='" + out.string() + "'",
-                         IRK_SOURCE_DIR, err))
-      << err.str();
-  const std::string svg = readInputFile(out.string() + ".svg");
-  EXPECT_TRUE(containsAll(svg, {"ivp", "variable", "honest failure", "tolerance"}));
-  EXPECT_EQ(svg.find("multibody"), svg.npos) << "only collections with runs";
+  Drawing drawing;
+  drawing.put("robustness.csv", R"(collection,integrator,tolerance,runs,right,failed,wrong,unjudged
+all,variable,all,10,7,2,1,0
+all,variable,1e-4,10,7,2,1,0
+ivp,variable,all,10,7,2,1,0
+ivp,variable,1e-4,10,7,2,1,0
+)");
+  const Svg svg = drawing.draw("robustness.gp", "");
+  EXPECT_TRUE(says(svg, {"ivp", "variable", "honest failure", "tolerance"}));
+  EXPECT_EQ(svg.occurrences("multibody"), 0) << "only collections with runs";
 }
 
 TEST(Estimates, OfSmallStepsAreTheTrueErrors) {
-  const Study study = parseStudy(R"(
+  const auto [study, runs] = runsOf(R"(
 estimates = true
 [[block]]
 scene = "riccati_tracking"
 methods = "radau_iia_2"
 tolerances = 1e-6
-)",
-                                 "small.toml", StudyVariant::kFull);
-  const TemporaryFolder folder;
-  RunnerOptions options;
-  options.results = folder.path();
-  std::ostringstream quiet;
-  const Table table = estimateTable(study, runStudy(study, options, quiet));
+)");
+  const Table table = estimateTable(study, runs);
   ASSERT_GT(table.rows.size(), 5u);
   for (const auto& row : table.rows) {
     EXPECT_EQ(textAt(table, row, "group"), "x");

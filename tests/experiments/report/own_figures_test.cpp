@@ -38,13 +38,6 @@ class OwnFigures : public testing::Test {
   TemporaryFolder folder_;
 };
 
-testing::AssertionResult says(const Svg& svg, const std::vector<std::string>& parts) {
-  for (const auto& part : parts) {
-    if (svg.occurrences(part) == 0) return testing::AssertionFailure() << "no \"" << part << "\" in the figure";
-  }
-  return testing::AssertionSuccess();
-}
-
 // The options of a script are those that it tests for.
 TEST_F(OwnFigures, ScriptsSayWhatTheyTake) {
   const Script script = readScript(IRK_SOURCE_DIR, "work_by");

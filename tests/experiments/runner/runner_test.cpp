@@ -58,9 +58,7 @@ TEST(Runner, OneAndTwoThreadsMakeTheSameRows) {
 }
 
 TEST(Runner, MisuseInsideASweepIsARow) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  const Table runs = runStudy(small(), options(folder, 1), quiet);
+  const Table runs = runsOf(kSmallStudy).runs;
   int refused = 0;
   for (const auto& row : runs.rows) {
     if (textAt(runs, row, "outcome") != "refused") continue;
@@ -122,9 +120,7 @@ TEST(Runner, ShardsTogetherAreTheWhole) {
 }
 
 TEST(Runner, OrdersOfTheSweepAgreeWithTheory) {
-  const TemporaryFolder folder;
-  std::ostringstream quiet;
-  const Table orders = orderTable(runStudy(small(), options(folder, 2), quiet));
+  const Table orders = orderTable(runsOf(kSmallStudy).runs);
   ASSERT_EQ(orders.rows.size(), 4u);
   for (const auto& row : orders.rows) {
     EXPECT_EQ(textAt(orders, row, "component"), "x");
