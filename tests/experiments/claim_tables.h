@@ -42,6 +42,13 @@ using Row = std::map<std::string, std::string>;
 
 inline std::string text(double x) { return fmt::format("{}", x); }
 
+/// Results that consist of this table.
+inline ResultTables resultsOf(const char* study, const char* name, const Table& table) {
+  ResultTables results;
+  results.put(study, name, table);
+  return results;
+}
+
 /// A table of the study claims with every column that an evaluation reads. Cells that a row does not give are those of
 /// a successful run in the paper's setting.
 class RunTable {
@@ -79,11 +86,7 @@ class RunTable {
     }
   }
   const Table& table() const { return table_; }
-  ResultTables results() const {
-    ResultTables results;
-    results.put("claims", "runs", table_);
-    return results;
-  }
+  ResultTables results() const { return resultsOf("claims", "runs", table_); }
 
  private:
   static const Row& defaults() {

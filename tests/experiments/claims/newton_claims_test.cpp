@@ -26,9 +26,7 @@ ResultTables phaseTables(const std::vector<Shares>& of_scenes, const char* n = "
                              text(s.solve), "0.1", "0.01", "0.03", "1", covered});
     }
   }
-  ResultTables results;
-  results.put("phases", "phases", phases);
-  return results;
+  return resultsOf("phases", "phases", phases);
 }
 
 TEST(NewtonClaims, ShareOfEvaluations) {
@@ -151,9 +149,7 @@ ResultTables kForm(const std::string& mass_factorizations) {
     }
     runs.add({{"scene", scene}, {"formulation", "first_order"}, {"mass_factorizations", "99"}});
   }
-  ResultTables results;
-  results.put("k_form", "runs", runs.table());
-  return results;
+  return resultsOf("k_form", "runs", runs.table());
 }
 
 TEST(NewtonClaims, MassIsNotFactorized) {

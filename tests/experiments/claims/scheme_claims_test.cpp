@@ -16,9 +16,7 @@ Verdict orderOf(const char* order, const char* judged = "agrees", const char* st
     for (const auto& scene : kScenes) orders.rows.push_back({scene, "gauss", stages, judged, order});
   }
   orders.rows.push_back({"kaps", "radau_iia", "10", "agrees", "20"});
-  ResultTables results;
-  results.put("order", "orders", orders);
-  return verdict("C1a", results);
+  return verdict("C1a", resultsOf("order", "orders", orders));
 }
 
 TEST(SchemeClaims, ObservedOrder) {

@@ -19,19 +19,12 @@ Verdict verdictOf(std::string_view id, const ResultTables& tables, Setting setti
   return judge(partOf(id), measured(id, tables, setting)).verdict;
 }
 
-Table withColumns(std::vector<std::string> names) {
-  Table table;
-  table.columns = std::move(names);
-  return table;
-}
-std::string text(double x) { return std::to_string(x); }
-
 constexpr const char* kScenes[] = {"kepler", "pendulum", "slider_crank"};
 
 // --- C3b, steps
 
 ResultTables estimates(double ratio, const char* group, int of_ten_above = 0) {
-  Table table = withColumns({"scene", "formulation", "group", "doubling"});
+  Table table{{}, {"scene", "formulation", "group", "doubling"}, {}};
   for (const char* scene : kScenes) {
     for (int i = 0; i < 10; ++i) {
       table.rows.push_back({scene, "index2", group, text(i < of_ten_above ? 5 : ratio)});
@@ -39,9 +32,7 @@ ResultTables estimates(double ratio, const char* group, int of_ten_above = 0) {
       table.rows.push_back({scene, "index2", "z", "100"});    // multipliers do not count
     }
   }
-  ResultTables results;
-  results.put("estimate", "estimates", table);
-  return results;
+  return resultsOf("estimate", "estimates", table);
 }
 
 TEST(SwitchingClaims, ReliableSteps) {
@@ -63,8 +54,10 @@ struct Reliability {
 };
 
 ResultTables reliability(const Reliability& r, const char* treatment = "ignore", const char* configuration = "paper") {
-  Table table = withColumns({"block", "configuration", "scene", "settings", "method", "discontinuity", "rtol", "t_end",
-                             "outcome", "residuals", "dual_residuals", "error", "error_u", "error_v", "error_x"});
+  Table table{{},
+              {"block", "configuration", "scene", "settings", "method", "discontinuity", "rtol", "t_end", "outcome",
+               "residuals", "dual_residuals", "error", "error_u", "error_v", "error_x"},
+              {}};
   const auto addRun = [&](const char* block, const std::string& scene, int i, const char* treated, double value,
                           const char* outcome, const char* residuals) {
     for (int time = 1; time <= 10; ++time) {
@@ -84,9 +77,7 @@ ResultTables reliability(const Reliability& r, const char* treatment = "ignore",
   for (const char* block : {"orbit", "pendulum", "tracking"}) {
     for (int i = 0; i < 9; ++i) addRun(block, block, i, "ignore", r.smooth, "success", "10");
   }
-  ResultTables results;
-  results.put("reliability", "runs", table);
-  return results;
+  return resultsOf("reliability", "runs", table);
 }
 
 TEST(SwitchingClaims, ReliableRuns) {
@@ -116,7 +107,7 @@ TEST(SwitchingClaims, TolerancesWithoutLocatedSwitches) {
 
 // Steps of 0.01, and one of `factor` times that over each switch.
 Table stepsWithSwitches(const std::vector<double>& times, double end, double factor) {
-  Table steps = withColumns({"t", "h"});
+  Table steps{{}, {"t", "h"}, {}};
   const double h = end / 50;
   double t = 0;
   while (t < end) {
@@ -133,7 +124,7 @@ Table stepsWithSwitches(const std::vector<double>& times, double end, double fac
 }
 
 ResultTables lively(double factor) {
-  Table runs = withColumns({"block", "scene", "settings", "method", "outcome"});
+  Table runs{{}, {"block", "scene", "settings", "method", "outcome"}, {}};
   ResultTables results;
   const auto add = [&](const char* block, const char* scene, const char* settings, const std::string& file,
                        const std::vector<double>& times, double end) {
@@ -163,13 +154,11 @@ TEST(SwitchingClaims, StepsAtSwitches) {
 // --- C17
 
 ResultTables contractions(double third, int of_ten_better = 0) {
-  Table table = withColumns({"scene", "c1", "c3"});
+  Table table{{}, {"scene", "c1", "c3"}, {}};
   for (const char* scene : kScenes) {
     for (int i = 0; i < 10; ++i) table.rows.push_back({scene, "0.5", text(i < of_ten_better ? 0.1 : third)});
   }
-  ResultTables results;
-  results.put("contraction", "contractions", table);
-  return results;
+  return resultsOf("contraction", "contractions", table);
 }
 
 TEST(SwitchingClaims, ContractionAtFirst) {
@@ -182,8 +171,7 @@ TEST(SwitchingClaims, ContractionAtFirst) {
 // --- C18
 
 ResultTables newtonRuns(const char* modified, const char* full, double error) {
-  Table table =
-      withColumns({"scene", "settings", "method", "rtol", "discontinuity", "h", "newton", "outcome", "error"});
+  Table table{{}, {"scene", "settings", "method", "rtol", "discontinuity", "h", "newton", "outcome", "error"}, {}};
   for (const char* scene : kScenes) {
     for (const char* h : {"0.1", "0.2", "0.3", "0.4"}) {
       const auto add = [&](const char* newton, const char* outcome, double reached) {
@@ -195,9 +183,7 @@ ResultTables newtonRuns(const char* modified, const char* full, double error) {
       add("modified", "newton_failed", 0.01);
     }
   }
-  ResultTables results;
-  results.put("newton_contact", "runs", table);
-  return results;
+  return resultsOf("newton_contact", "runs", table);
 }
 
 TEST(SwitchingClaims, FullNewtonRepairs) {
@@ -211,8 +197,7 @@ TEST(SwitchingClaims, FullNewtonRepairs) {
 // --- C19
 
 ResultTables gammaRuns(int with, int without) {
-  Table table =
-      withColumns({"block", "scene", "settings", "method", "rtol", "control", "outcome", "steps_rejected_error"});
+  Table table{{}, {"block", "scene", "settings", "method", "rtol", "control", "outcome", "steps_rejected_error"}, {}};
   for (const char* scene : kScenes) {
     for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_4", "radau_iia_5"}) {
       const auto add = [&](const char* rtol, const char* control, int rejected, const char* outcome) {
@@ -226,9 +211,7 @@ ResultTables gammaRuns(int with, int without) {
       add("1e-7", "paper_no_gamma", 1, "max_steps");  // nothing to compare with
     }
   }
-  ResultTables results;
-  results.put("control", "runs", table);
-  return results;
+  return resultsOf("control", "runs", table);
 }
 
 TEST(SwitchingClaims, Gamma) {
@@ -240,8 +223,10 @@ TEST(SwitchingClaims, Gamma) {
 // --- C20
 
 ResultTables flexibleRuns(double gain, const char* configuration, const std::string& ending, int scenes = 3) {
-  Table table = withColumns({"block", "configuration", "scene", "settings", "method", "family", "stages", "rtol",
-                             "t_end", "outcome", "error", "cpu_s"});
+  Table table{{},
+              {"block", "configuration", "scene", "settings", "method", "family", "stages", "rtol", "t_end", "outcome",
+               "error", "cpu_s"},
+              {}};
   const std::pair<const char*, const char*> kPlaces[] = {
       {"rod_with_friction", "slider_crank_flexible"}, {"arm_on_stop", "ancf_stop"}, {"leaf_on_stop", "ancf_leaf_stop"}};
   for (int i = 0; i < scenes; ++i) {
@@ -258,9 +243,7 @@ ResultTables flexibleRuns(double gain, const char* configuration, const std::str
       }
     }
   }
-  ResultTables results;
-  results.put("flexible_contact", "runs", table);
-  return results;
+  return resultsOf("flexible_contact", "runs", table);
 }
 
 TEST(SwitchingClaims, GainOnFlexibleContact) {

@@ -7,6 +7,7 @@
 #include "experiments/report/answers/paper.h"
 #include "experiments/report/answers/solvers.h"
 #include "experiments/report/answers/study_answers.h"
+#include "tests/experiments/claim_tables.h"
 #include "tests/experiments/report/answer_tables.h"
 #include "tests/experiments/support.h"
 
@@ -175,10 +176,9 @@ Cells run(const char* solver, const char* scene, const char* outcome, const char
 }
 
 claims::ResultTables ended(const std::vector<Cells>& rows) {
-  claims::ResultTables tables;
-  tables.put("work_precision", "runs",
-             tableOf({"integrator", "scene", "outcome", "rtol", "atol", "error_u", "error_v", "error_x"}, rows));
-  return tables;
+  return claims::resultsOf(
+      "work_precision", "runs",
+      tableOf({"integrator", "scene", "outcome", "rtol", "atol", "error_u", "error_v", "error_x"}, rows));
 }
 
 TEST(FailureAnswer, ComparesSolversOnTheSameProblems) {
@@ -243,12 +243,12 @@ TEST(PaperAnswer, CountsVerdictsAndListsClaims) {
 
 TEST(StudyAnswers, CompareTheColumnOfTheStudy) {
   const std::vector<std::string> columns{"scene", "settings", "family", "target_error", "cpu_s", "cause"};
-  claims::ResultTables tables;
-  tables.put("families", "cpu_at_error",
-             tableOf(columns, {{{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "3"}},
-                               {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "6"}},
-                               {{"scene", "a"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "1"}},
-                               {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-9"}, {"cpu_s", "0.1"}}}));
+  const auto tables = claims::resultsOf(
+      "families", "cpu_at_error",
+      tableOf(columns, {{{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "3"}},
+                        {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "6"}},
+                        {{"scene", "a"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "1"}},
+                        {{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-9"}, {"cpu_s", "0.1"}}}));
   const auto sentences = studyAnswers("families", tables);
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_EQ(
@@ -260,12 +260,12 @@ TEST(StudyAnswers, CompareTheColumnOfTheStudy) {
 
 TEST(StudyAnswers, NameTheFastestBySceneWhereTheyAreFew) {
   const std::vector<std::string> columns{"scene", "settings", "family", "target_error", "cpu_s", "cause"};
-  claims::ResultTables tables;
-  tables.put("families", "cpu_at_error",
-             tableOf(columns, {{{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "3"}},
-                               {{"scene", "a"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "1"}},
-                               {{"scene", "b"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "2"}},
-                               {{"scene", "b"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "4"}}}));
+  const auto tables = claims::resultsOf(
+      "families", "cpu_at_error",
+      tableOf(columns, {{{"scene", "a"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "3"}},
+                        {{"scene", "a"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "1"}},
+                        {{"scene", "b"}, {"family", "gauss"}, {"target_error", "1e-6"}, {"cpu_s", "2"}},
+                        {{"scene", "b"}, {"family", "radau_iia"}, {"target_error", "1e-6"}, {"cpu_s", "4"}}}));
   EXPECT_EQ(studyAnswers("families", tables).at(1), "The fastest there by scene: `radau_iia` on a and `gauss` on b.");
 }
 
