@@ -15,6 +15,7 @@
 #include "experiments/runs/run.h"
 #include "experiments/study/study_reader.h"
 #include "tests/experiments/heat.h"
+#include "tests/experiments/runs/peer_runs.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -34,22 +35,14 @@ int seen(Seen what) {
 }
 
 RunSpec spec(const std::string& code, const std::string& rest, double tol = 1e-5) {
-  RunSpec run = parseSpec("method=" + at(code) + ";" + rest);
-  run.options.tolerances.rtol = run.options.tolerances.atol = tol;
-  return run;
-}
-
-RunRecord success(const RunSpec& run) {
-  RunRecord record = execute(run);
-  EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
-  return record;
+  return peerSpec(at(code), rest, tol);
 }
 
 TEST(FortranCodes, FollowTheTolerance) {
   for (const auto& code : kAll) {
     double coarser = 1;
     for (const double tol : {1e-3, 1e-5}) {
-      const RunRecord run = success(spec(code, "scene=riccati_tracking", tol));
+      const RunRecord run = peerSuccess(spec(code, "scene=riccati_tracking", tol));
       EXPECT_EQ(run.spec.method, code);
       EXPECT_LT(run.errors.all, 1000 * tol) << code;
       EXPECT_LT(run.errors.all, 0.1 * coarser) << code;
@@ -65,17 +58,17 @@ TEST(FortranCodes, FollowTheTolerance) {
 // y = (u, v): the rows u' = v are left to the code, and both blocks of the others are banded.
 TEST(FortranCodes, UseTheStructureOfSecondOrderSystems) {
   const std::string rest = "scene=beam_chain;settings=m=25;t_end=0.01";
-  const RunRecord exact = success(parseSpec("method=radau_iia_5;rtol=1e-9;atol=1e-9;" + rest));
+  const RunRecord exact = peerSuccess(parseSpec("method=radau_iia_5;rtol=1e-9;atol=1e-9;" + rest));
   for (const std::string code : kHairer) {
     const int calls = seen(kCalls);
-    const RunRecord run = success(spec(code, rest));
+    const RunRecord run = peerSuccess(spec(code, rest));
     EXPECT_EQ(seen(kCalls), calls + 1) << code;  // no entry was outside the band
     EXPECT_EQ(seen(kM1), 25) << code;
     EXPECT_EQ(seen(kBanded), 1) << code;
     EXPECT_EQ(seen(kLower), 2) << code;
     EXPECT_EQ(seen(kUpper), 2) << code;
     EXPECT_LT((run.u - exact.u).norm(), 1e-3 * exact.u.norm()) << code;
-    success(spec(code, "scene=kepler;t_end=1"));
+    peerSuccess(spec(code, "scene=kepler;t_end=1"));
     EXPECT_EQ(seen(kM1), 2) << code;
     EXPECT_EQ(seen(kBanded), 0) << code;
   }
@@ -105,9 +98,9 @@ TEST(FortranCodes, GetBandedJacobians) {
 TEST(FortranCodes, GetAMassMatrixWhereUnknownsAreAlgebraic) {
   for (const char* rest : {"scene=pendulum;t_end=0.5;formulation=index1",
                            "scene=slider_crank;t_end=0.05;formulation=index1", "scene=index1_nonlinear"}) {
-    const RunRecord exact = success(parseSpec(std::string("method=radau_iia_5;rtol=1e-10;atol=1e-10;") + rest));
+    const RunRecord exact = peerSuccess(parseSpec(std::string("method=radau_iia_5;rtol=1e-10;atol=1e-10;") + rest));
     for (const auto& code : kAll) {
-      const RunRecord run = success(spec(code, rest));
+      const RunRecord run = peerSuccess(spec(code, rest));
       const bool dassl = code.starts_with("dd");
       EXPECT_EQ(seen(kMass), dassl ? 0 : 1) << code << " " << rest;
       const auto near = [&](const Vec<double>& a, const Vec<double>& b) {
@@ -122,9 +115,9 @@ TEST(FortranCodes, GetAMassMatrixWhereUnknownsAreAlgebraic) {
 
 TEST(FortranCodes, GetTheIndexOfTheirUnknowns) {
   for (const char* code : {"radau", "radau5"}) {
-    success(spec(code, "scene=pendulum;t_end=0.2;formulation=index1"));
+    peerSuccess(spec(code, "scene=pendulum;t_end=0.2;formulation=index1"));
     EXPECT_EQ(seen(kIndex2), 0) << code;
-    success(spec(code, "scene=pendulum;t_end=0.2;formulation=index2"));
+    peerSuccess(spec(code, "scene=pendulum;t_end=0.2;formulation=index2"));
     EXPECT_EQ(seen(kIndex2), 1) << code;
     EXPECT_EQ(seen(kIndex3), 0) << code;
     static_cast<void>(execute(spec(code, "scene=pendulum;t_end=0.01;formulation=index3")));

@@ -10,6 +10,7 @@
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
 #include "irk/peer.h"
+#include "tests/experiments/runs/peer_runs.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
@@ -20,15 +21,7 @@ namespace fs = std::filesystem;
 std::string solver(const std::string& name) { return std::string(IRK_SOLVERS "/") + name + ".so"; }
 
 RunSpec ownSpec(const std::string& method, const std::string& rest, double tol = 1e-6) {
-  RunSpec run = parseSpec("method=" + method + ";" + rest);
-  run.options.tolerances.rtol = run.options.tolerances.atol = tol;
-  return run;
-}
-
-RunRecord ownSuccess(const RunSpec& run) {
-  RunRecord record = execute(run);
-  EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
-  return record;
+  return peerSpec(method, rest, tol);
 }
 
 /// Explicit Euler with the given step, for registerPeer.
@@ -66,7 +59,7 @@ TEST(OwnPeers, ARegisteredPeerRunsAsAnyOther) {
   double coarser = 0;
   for (const double h : {1e-3, 5e-4}) {
     run.options.step.h = h;
-    const RunRecord record = ownSuccess(run);
+    const RunRecord record = peerSuccess(run);
     EXPECT_EQ(record.counters.residuals, record.counters.steps_accepted);
     EXPECT_NEAR(static_cast<double>(record.counters.steps_accepted), 1 / h, 1);
     const double size = record.u.norm();
@@ -102,7 +95,7 @@ TEST(OwnPeers, ALibraryInCFollowsTheToleranceInEveryForm) {
   for (const char* name : {"euler_ode", "euler_mass", "euler_dae"}) {
     double coarser = 1;
     for (const double tol : {1e-3, 1e-5}) {
-      const RunRecord run = ownSuccess(ownSpec(solver(name), "scene=riccati_tracking", tol));
+      const RunRecord run = peerSuccess(ownSpec(solver(name), "scene=riccati_tracking", tol));
       EXPECT_EQ(run.family, name);
       EXPECT_EQ(run.spec.method, name);
       EXPECT_LT(run.errors.all, 1000 * tol) << name;
@@ -122,9 +115,9 @@ TEST(OwnPeers, MassAndDaeFormsSolveConstraints) {
   for (const char* name : {"euler_mass", "euler_dae"}) {
     for (const char* rest : {"scene=pendulum;t_end=1;formulation=index1", "scene=pendulum;t_end=1",
                              "scene=slider_crank;t_end=0.1;formulation=index1"}) {
-      const RunRecord run = ownSuccess(ownSpec(solver(name), rest, 1e-5));
+      const RunRecord run = peerSuccess(ownSpec(solver(name), rest, 1e-5));
       RunSpec reference = ownSpec("radau_iia_5", rest, 1e-10);
-      const RunRecord exact = ownSuccess(reference);
+      const RunRecord exact = peerSuccess(reference);
       EXPECT_LT((run.u - exact.u).norm(), 1e-3 * exact.u.norm()) << name << " " << rest;
       EXPECT_LT((run.v - exact.v).norm(), 1e-2 * exact.v.norm()) << name << " " << rest;
       EXPECT_GT((run.u - exact.u).norm(), 1e-12) << name << " " << rest;
@@ -134,8 +127,9 @@ TEST(OwnPeers, MassAndDaeFormsSolveConstraints) {
 
 TEST(OwnPeers, ALibraryInCLocatesSwitches) {
   const RunSpec run = ownSpec(solver("euler_roots"), "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-5);
-  const RunRecord record = ownSuccess(run);
-  const RunRecord exact = ownSuccess(ownSpec("radau_iia_5", "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-10));
+  const RunRecord record = peerSuccess(run);
+  const RunRecord exact =
+      peerSuccess(ownSpec("radau_iia_5", "scene=elastoplastic;discontinuity=locate;t_end=1", 1e-10));
   EXPECT_EQ(record.counters.located_events, record.counters.switches);
   ASSERT_EQ(record.switches.size(), exact.switches.size());
   ASSERT_FALSE(exact.switches.empty());

@@ -11,6 +11,7 @@
 #include "irk/problem.h"
 #include "irk/tableaus.h"
 #include "tests/experiments/heat.h"
+#include "tests/experiments/runs/peer_runs.h"
 
 namespace irk {
 namespace {
@@ -172,8 +173,7 @@ TEST(PeerProblems, BandedAndSparseSolversAgreeWithTheDenseOne) {
           Integrator<double>(system, makeTableau<double>("radau_iia_7"), exactOptions()).integrate(scene.start, t_end);
       ASSERT_EQ(exact.outcome, Outcome::kSuccess);
       const auto end = [&](const char* storage) {
-        RunSpec run = parseSpec(std::string("scene=beam_chain;method=") + id + ";storage=" + storage);
-        run.options.tolerances.rtol = run.options.tolerances.atol = 1e-7;
+        const RunSpec run = peerSpec(id, std::string("scene=beam_chain;storage=") + storage, 1e-7);
         PeerIntegrator integrator(*findPeer(id), scene, run);
         const auto solution = integrator.integrate(scene.start, t_end);
         EXPECT_EQ(solution.outcome, Outcome::kSuccess) << id << " " << solution.detail;
@@ -201,9 +201,7 @@ TEST(PeerProblems, AGrowingPatternIsFollowed) {
   const Scene<double> scene = heatScene(true);
   for (const char* id : {"cvode_bdf", "ida_bdf"}) {
     const auto end = [&](const char* storage) {
-      RunSpec run =
-          parseSpec(std::string("scene=stick_slip;discontinuity=ignore;method=") + id + ";storage=" + storage);
-      run.options.tolerances.rtol = run.options.tolerances.atol = 1e-7;
+      const RunSpec run = peerSpec(id, std::string("scene=stick_slip;discontinuity=ignore;storage=") + storage, 1e-7);
       PeerIntegrator integrator(*findPeer(id), scene, run);
       const auto solution = integrator.integrate(scene.start, 0.1);
       EXPECT_EQ(solution.outcome, Outcome::kSuccess) << id << " " << solution.detail;

@@ -8,22 +8,11 @@
 #include "experiments/runs/peers/catalogue.h"
 #include "experiments/runs/peers/peer_integrator.h"
 #include "experiments/runs/run.h"
+#include "tests/experiments/runs/peer_runs.h"
 #include "tests/experiments/support.h"
 
 namespace irk {
 namespace {
-
-RunSpec peerSpec(const std::string& method, const std::string& rest, double tol = 1e-8) {
-  RunSpec run = parseSpec("method=" + method + ";" + rest);
-  run.options.tolerances.rtol = run.options.tolerances.atol = tol;
-  return run;
-}
-
-RunRecord peerSuccess(const RunSpec& run) {
-  RunRecord record = execute(run);
-  EXPECT_TRUE(record.succeeded()) << run.method << ": " << record.outcome << " " << record.detail;
-  return record;
-}
 
 bool isMissing(std::string_view peer) { return peer.starts_with("gsl_") && !hasGsl(); }
 

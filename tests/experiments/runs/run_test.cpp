@@ -12,10 +12,8 @@
 namespace irk {
 namespace {
 
-RunSpec spec(const char* text) { return parseSpec(text); }
-
 TEST(Run, IsAPureFunctionOfItsSpec) {
-  const RunSpec run = spec("scene=pendulum;t_end=1;method=radau_iia_3;rtol=1e-8;atol=1e-8");
+  const RunSpec run = parseSpec("scene=pendulum;t_end=1;method=radau_iia_3;rtol=1e-8;atol=1e-8");
   const RunRecord a = execute(run), b = execute(run);
   ASSERT_TRUE(a.succeeded()) << a.detail;
   EXPECT_EQ(a.u, b.u);
@@ -28,7 +26,7 @@ TEST(Run, IsAPureFunctionOfItsSpec) {
 }
 
 TEST(Run, ErrorsAgainstAClosedForm) {
-  const RunRecord run = execute(spec("scene=riccati_tracking;method=gauss_4;h=0.25;control=fixed;estimate=none"));
+  const RunRecord run = execute(parseSpec("scene=riccati_tracking;method=gauss_4;h=0.25;control=fixed;estimate=none"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_GT(run.errors.all, 0);
   EXPECT_LT(run.errors.all, 1e-6);
@@ -40,7 +38,7 @@ TEST(Run, ErrorsAgainstAClosedForm) {
 TEST(Run, DigitsReferToTheTolerancesOfTheRun) {
   const double y = 1.5 + std::sin(2.0);
   const auto run = [&](const char* more) {
-    return execute(spec((std::string("scene=riccati_tracking;method=radau_iia_3;") + more).c_str())).errors;
+    return execute(parseSpec("scene=riccati_tracking;method=radau_iia_3;" + std::string(more))).errors;
   };
   const auto digits = [&](const RunErrors& e, double atol_over_rtol) {
     return -std::log10(e.all * y / (atol_over_rtol + y));
@@ -52,7 +50,7 @@ TEST(Run, DigitsReferToTheTolerancesOfTheRun) {
   EXPECT_NEAR(loose.mescd(), digits(loose, 10), 1e-6);
   const RunErrors of_component = run("rtol=1e-6;atol=1e-5;atol_of=y=1e-3");
   EXPECT_NEAR(of_component.mescd(), digits(of_component, 1000), 1e-6);
-  const RunErrors peer = execute(spec("scene=riccati_tracking;method=cvode_bdf;rtol=1e-6;atol=1e-5")).errors;
+  const RunErrors peer = execute(parseSpec("scene=riccati_tracking;method=cvode_bdf;rtol=1e-6;atol=1e-5")).errors;
   EXPECT_NEAR(peer.mescd(), digits(peer, 10), 1e-6);
   const RunErrors constant = run("h=0.25;control=fixed;estimate=none");
   EXPECT_TRUE(std::isnan(constant.mescd())) << "no tolerances";
@@ -60,31 +58,31 @@ TEST(Run, DigitsReferToTheTolerancesOfTheRun) {
 }
 
 TEST(Run, ErrorsAgainstReferences) {
-  const RunRecord run = execute(spec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
+  const RunRecord run = execute(parseSpec("scene=slider_crank;t_end=1;method=radau_iia_5;rtol=1e-10;atol=1e-10"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_NEAR(run.u[0], 14.127892217751, 1e-7);
   EXPECT_LT(run.errors.u, 1e-7);
-  EXPECT_TRUE(std::isnan(execute(spec("scene=slider_crank;t_end=0.95;rtol=1e-3")).errors.all));
+  EXPECT_TRUE(std::isnan(execute(parseSpec("scene=slider_crank;t_end=0.95;rtol=1e-3")).errors.all));
 }
 
 TEST(Run, FailuresAreRecords) {
-  const RunRecord few = execute(spec("scene=kepler;max_steps=2;rtol=1e-10;atol=1e-10"));
+  const RunRecord few = execute(parseSpec("scene=kepler;max_steps=2;rtol=1e-10;atol=1e-10"));
   EXPECT_EQ(few.outcome, "max_steps");
   EXPECT_FALSE(few.detail.empty());
   EXPECT_TRUE(std::isnan(few.errors.all));
-  const RunRecord late = execute(spec("scene=kepler;time_limit=1e-9;rtol=1e-10;atol=1e-10"));
+  const RunRecord late = execute(parseSpec("scene=kepler;time_limit=1e-9;rtol=1e-10;atol=1e-10"));
   EXPECT_EQ(late.outcome, "timeout");
 }
 
 TEST(Run, StopsWhenAsked) {
   const std::atomic<bool> stop = true;
-  const RunRecord run = execute(spec("scene=kepler"), {&stop, {}, {}});
+  const RunRecord run = execute(parseSpec("scene=kepler"), {&stop, {}, {}});
   EXPECT_EQ(run.outcome, "interrupted");
 }
 
 TEST(Run, FiftyDigits) {
   const RunRecord run =
-      execute(spec("scene=riccati_tracking;scalar=mp50;method=gauss_8;h=0.125;control=fixed;estimate=none"));
+      execute(parseSpec("scene=riccati_tracking;scalar=mp50;method=gauss_8;h=0.125;control=fixed;estimate=none"));
   ASSERT_TRUE(run.succeeded()) << run.detail;
   EXPECT_LT(run.errors.all, 1e-17);  // below what double can show
   ASSERT_EQ(run.digits.size(), 1u);
@@ -92,7 +90,7 @@ TEST(Run, FiftyDigits) {
 }
 
 TEST(Run, TrajectoriesOfTableausInTwoFoldersStayApart) {
-  RunSpec first = spec("scene=slider_crank"), second = first;
+  RunSpec first = parseSpec("scene=slider_crank"), second = first;
   first.method = "a/mine.txt";
   second.method = "b/mine.txt";
   EXPECT_EQ(trajectoryPath("r", first), std::filesystem::path("r") / "slider_crank.a_mine.txt.csv");
@@ -101,7 +99,7 @@ TEST(Run, TrajectoriesOfTableausInTwoFoldersStayApart) {
 
 TEST(Run, TrajectoryHoldsStartAndEnd) {
   const TemporaryFolder folder;
-  const RunSpec run = spec("scene=slider_crank;t_end=0.3");
+  const RunSpec run = parseSpec("scene=slider_crank;t_end=0.3");
   const auto file = trajectoryPath(folder.path(), run);
   EXPECT_EQ(file.filename(), "slider_crank.radau_iia_5.csv");
   const RunRecord record = executeWithTrajectory(run, {}, file);
