@@ -11,7 +11,6 @@
 #include <sstream>
 #include <string>
 
-#include "experiments/base/failure.h"
 #include "experiments/compare/folders.h"
 #include "experiments/runs/run_table.h"
 #include "experiments/store/store.h"
@@ -90,16 +89,6 @@ inline std::set<std::string> keysOf(const Table& runs) {
   std::set<std::string> keys;
   for (const auto& row : runs.rows) keys.insert(row.front());
   return keys;
-}
-
-inline std::string failureOf(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  ADD_FAILURE() << "nothing failed";
-  return {};
 }
 
 /// Calls `f` in another process; its exit status is 0, that of `f`, or 9 after an exception.

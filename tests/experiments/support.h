@@ -7,20 +7,25 @@
 #include <string>
 
 #include "core/base/input_file.h"
+#include "experiments/base/failure.h"
+#include "irk/misuse.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace irk {
 
-/// The message of the Misuse that f throws; the test fails if it throws none.
-inline std::string misuseOf(const std::function<void()>& f) {
+/// The message of the Error that f throws; the test fails if it throws none.
+template <class Error>
+std::string thrownBy(const std::function<void()>& f) {
   try {
     f();
-  } catch (const Misuse& misuse) {
-    return misuse.what();
+  } catch (const Error& error) {
+    return error.what();
   }
-  ADD_FAILURE() << "no misuse was reported";
+  ADD_FAILURE() << "nothing was refused, and nothing failed";
   return {};
 }
+inline std::string misuseOf(const std::function<void()>& f) { return thrownBy<Misuse>(f); }
+inline std::string failureOf(const std::function<void()>& f) { return thrownBy<Failure>(f); }
 
 }  // namespace irk

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "experiments/base/failure.h"
 #include "experiments/compare/publications.h"
 #include "experiments/report/publish/published_page.h"
 #include "experiments/report/publish/published_runs.h"
@@ -24,16 +23,6 @@ namespace {
 using report::publishedRuns;
 
 std::string ownCode() { return std::string(buildInfo().code) + " (12 rows)"; }
-
-std::string failureOf(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  ADD_FAILURE() << "no failure was reported";
-  return {};
-}
 
 class Publish : public testing::Test {
  protected:
