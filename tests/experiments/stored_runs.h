@@ -68,6 +68,10 @@ class StoredRuns : public testing::Test {
         part.rows[i][part.column("cpu_environment")] = "abc";
       }
     });
+    writeOtherEnvironment(tree, values);
+  }
+  // The environment of the moved rows: that of this program, except these columns.
+  void writeOtherEnvironment(const std::string& tree, const std::map<std::string, std::string>& values) const {
     Table environments{{}, environmentColumns(), {thisEnvironment()}};
     environments.rows[0][0] = "abc";
     for (const auto& [column, value] : values) environments.rows[0][environments.column(column)] = value;

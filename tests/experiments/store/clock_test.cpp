@@ -81,18 +81,12 @@ TEST_F(SetBackClock, FewerTimesOfThisMachineCount) {
 // The same processor with other flags.
 TEST_F(StoredRuns, TimesOfOtherFlagsAreNotJoined) {
   run();
-  moveToOtherMachine("results", 4);
-  Table environments{{}, environmentColumns(), {thisEnvironment()}};
-  environments.rows[0][0] = "abc";
-  environments.rows[0][environments.column("flags")] = "-O0";
-  writePartTable(folder() / "parts" / "environments.0.csv", environments);
+  moveToOther("results", 4, {{"flags", "-O0"}});
   run();
   const std::string refusal = refusedTimes(folder() / "runs.csv");
   EXPECT_TRUE(containsAll(refusal, {"2 timing classes", "-O0", "--times here"})) << refusal;
-  environments.rows[0][environments.column("flags")] = thisEnvironment()[environments.column("flags")];
-  environments.rows[0][environments.column("libraries")] =
-      "GSL 9.9; " + thisEnvironment()[environments.column("libraries")];
-  writePartTable(folder() / "parts" / "environments.0.csv", environments);
+  const Table here{{}, environmentColumns(), {thisEnvironment()}};
+  writeOtherEnvironment("results", {{"libraries", "GSL 9.9; " + textAt(here, here.rows[0], "libraries")}});
   run();
   EXPECT_EQ(refusedTimes(folder() / "runs.csv"), "") << "no run here uses GSL";
 }
