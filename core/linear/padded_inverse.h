@@ -112,10 +112,10 @@ class Padded {
     Numbers most = Numbers{} - 1;
     for (std::size_t r = 0; r < kRegisters; ++r) {
       const Numbers x = at(re_, k, r);
-      Numbers size = x < 0 ? -x : x;
+      Numbers size = x < Numbers{} ? -x : x;
       if constexpr (Parts == 2) {
         const Numbers y = at(im_, k, r);
-        size += y < 0 ? -y : y;
+        size += y < Numbers{} ? -y : y;
       }
       not_finite[r] += size * 0.0;
       size = free[r] ? size : Numbers{} - 1;
