@@ -83,7 +83,8 @@ struct CarrierPulses {
       since = time;
     };
     for (int k = 1; std::numbers::pi * (k - 1) / 100 < t; ++k) {
-      const double turn = std::numbers::pi * (k / 2 * 2) / 100, third = std::numbers::pi / 300;
+      const int even = k / 2 * 2;
+      const double turn = std::numbers::pi * even / 100, third = std::numbers::pi / 300;
       const double next = k % 2 == 1 ? turn + third : turn - third;  // falls at odd k, rises at even k
       if (next >= t) break;
       goTo(next);
