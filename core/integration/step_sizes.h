@@ -30,8 +30,8 @@ struct Grid {
   Real end(std::int64_t i) const { return i + 1 == steps() ? t_end : Real(t0 + Real(static_cast<double>(i + 1)) * h); }
 };
 
-/// The size in which the solution changes by kFirstChange of itself: HW I (II.4), first guess. Infinity where the
-/// solution or its rates are about zero and say nothing.
+/// The size in which the solution changes by kFirstChange of itself: HW I (II.4), first guess. Infinity where the norm
+/// of the solution or of its rates is at most 1e-5, as there, so that the quotient says nothing.
 template <class Real>
 double sizeByRates(const State<Real>& state) {
   constexpr double kAboutZero = 1e-5;

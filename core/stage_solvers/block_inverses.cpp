@@ -57,7 +57,9 @@ Outcome BlockInverses::invertSmallBlock(std::size_t index, const Linearization<d
   SmallMatrix split;
   double *const re = split.data(), *const im = re + n * n;
   for (Index k = 0; k < n * n; ++k) re[k] = d0[k] + m1.real() * d1[k] + m2.real() * d2[k];
-  for (Index k = 0; k < n * n && Parts == 2; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
+  if constexpr (Parts == 2) {
+    for (Index k = 0; k < n * n; ++k) im[k] = m1.imag() * d1[k] + m2.imag() * d2[k];
+  }
   for (Index i = 0; i < n; ++i) {
     if (row_powers_[static_cast<std::size_t>(i)] == 0) continue;
     for (Index k = i; k < Parts * n * n; k += n) re[k] *= scales[i];

@@ -15,8 +15,9 @@ namespace irk {
 /// only. Different threads may work on different blocks.
 class BlockInverses {
  public:
-  /// Whether inverses of n x n blocks for s stages are faster than factors. With one stage and up to three unknowns
-  /// they are not.
+  /// Whether inverses of n x n blocks for s stages are faster than factors. With one stage the blocks are real.
+  /// Measured then, factors and one substitution against inverse and one product: 21 and 36 ns for n = 3, 49 and 46 for
+  /// n = 4, 179 and 89 for n = 8.
   static bool pay(Index n, Index s) { return n > 0 && n <= kMostInverted && (s > 1 || n > 3); }
 
   /// Keeps a reference to the form and a view of the powers, see StageSolverSetup.
@@ -48,7 +49,7 @@ class BlockInverses {
  private:
   double* inverseOf(std::size_t block) { return inverses_.col(static_cast<Index>(block)).data(); }
   Outcome invertPaddedBlock(std::size_t block, const Linearization<double>& D, double h, const Vec<double>& scales);
-  // Not inlined: one function for all sizes has no registers left for the columns.
+  // Not inlined: with one function for all sizes transamp, n = 8, takes 1.12 times as long.
   template <int Parts, class Size>
   [[gnu::noinline]] Outcome invertSmallBlock(std::size_t block, const Linearization<double>& D, double h,
                                              const Vec<double>& scales, Size n);

@@ -83,7 +83,8 @@ TEST(PaddedInverse, ProductsWithIt) {
   });
 }
 
-// The error of a solution is of the size that factors leave: 0.3 to 3 times that of DenseLu, measured.
+// The error of a solution is of the size that factors leave: of 4800 random matrices 98 % have 0.3 to 4.2 times the
+// error of DenseLu, the largest has 13 times.
 TEST(PaddedInverse, IsAsAccurateAsFactors) {
   forEachPaddedSize([](Index n) {
     ComplexMat A = ComplexMat::Random(n, n);

@@ -52,5 +52,30 @@ TEST(AlgebraicUnknowns, SmallErrorsOfThemDoNotStopARun) {
   }
 }
 
+/// x' = i - (exp(40 z) - 1), x = z + z^3, where the current i jumps at an undeclared time.
+struct UndeclaredCurrent {
+  Sizes sizes() const { return {.nx = 1, .nz = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::exp;
+    const double i = p.t > T(10.0) ? 1e6 : 1.0;
+    r.x[0] = i - (exp(40.0 * p.z[0]) - 1.0) - p.k[0];
+    r.z[0] = p.x[0] - p.z[0] * (1.0 + p.z[0] * p.z[0]);
+  }
+};
+
+// A dozen attempts over the jump fail in a row. The state from which they start is the same.
+TEST(AlgebraicUnknowns, AreSolvedForOnceInARowOfFailures) {
+  const auto start = startOf(UndeclaredCurrent{}, {.x = {0.01}});
+  const auto s = integrate<double>(UndeclaredCurrent{}, start, 100, makeTableau<double>("radau_iia_3"), embedded(1e-4));
+  ASSERT_EQ(s.outcome, Outcome::kSuccess) << s.detail;
+  const double z = std::log(1e6 + 1) / 40;
+  EXPECT_NEAR(s.state.x[0], z * (1 + z * z), 1e-6);
+  EXPECT_GE(s.counters.steps_rejected_newton, 20);
+  // One for the start, one for the end, and one for each row of failures; one for each failure would be 18.
+  EXPECT_GE(s.counters.mass_factorizations, 3);
+  EXPECT_LE(s.counters.mass_factorizations, 10);
+}
+
 }  // namespace
 }  // namespace irk::test
