@@ -1,6 +1,7 @@
 #include "core/derivatives/consistent_start.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "core/base/constants.h"
@@ -169,6 +170,11 @@ StartReport ConsistentStart<Real>::apply(State<Real>& state, StartCheck check) {
 }
 
 template <class Real>
+StartReport ConsistentStart<Real>::findRates(State<Real>& state) {
+  return determine(state, kConsistent, kEightDigits, Wanted::kRates);
+}
+
+template <class Real>
 std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
   given_ = state.w;
   const StartReport found = determine(state, kConsistent, 0);
@@ -183,7 +189,7 @@ std::string ConsistentStart<Real>::applyAtEnd(State<Real>& state) {
 // Newton's method for state.w. Returns kSingular if D0 is singular. If Newton does not converge, a residual up to
 // `tolerated`, relative to 1 + |w|, is accepted.
 template <class Real>
-StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated) {
+StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* place, double tolerated, Wanted wanted) {
   const auto t = [&] { return sceneTime(system_, state.t); };
   const VecView<Real> rows(r_.data(), r_.size());
   const Real eps = Eigen::NumTraits<Real>::epsilon();
@@ -195,11 +201,13 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     value = static_cast<double>(r_[worst]);
     return std::isfinite(value);
   };
-  Real before(0);
-  bool renew = true;
+  const Real small = wanted == Wanted::kRates ? Real(kEightDigits.value) : Real(100) * eps;
+  bool renew = wanted == Wanted::kAllDigits || !factorized_;
+  Real before = renew ? Real(0) : Real(std::numeric_limits<double>::infinity());
   for (int i = 0; i < kIterations; ++i) {
     if (!evaluate()) break;
     if (renew) {
+      factorized_ = false;
       if (counters_) ++counters_->jacobians;
       differentiator_.evaluate(Level::kAcceleration, pointOf(state), D_);
       if (!D_.d0.allFinite()) {
@@ -207,7 +215,8 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
         text << place << ", t = " << t() << ": " << derivativeFault(uncounted(system_), source_, state);
         return {Outcome::kNotFinite, text.str(), true};
       }
-      if (!factorize()) {
+      factorized_ = factorize();
+      if (!factorized_) {
         std::ostringstream text;
         text << "dr/d(a, k, z) is singular at t = " << t();
         return {Outcome::kSingular, text.str(), false};
@@ -220,7 +229,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
     if (renew) continue;
     before = size;
     state.w -= dw_;
-    if (size <= Real(100) * eps * (Real(1) + state.w.norm())) return {};
+    if (size <= small * (Real(1) + state.w.norm())) return {};
   }
   if (!evaluate()) return report(Outcome::kNotFinite, place, t(), worst, "residual", value);
   const double allowed = tolerated * (1 + static_cast<double>(Real(state.w.norm())));

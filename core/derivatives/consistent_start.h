@@ -37,7 +37,10 @@ class ConsistentStart {
                   const Vec<double>& scale = {}, std::shared_ptr<DifferentiatorScratch<Real>> scratch = nullptr);
 
   /// Resets all history before a new integration: results are then bitwise those of a new object.
-  void forgetPattern() { differentiator_.forgetPattern(); }
+  void forgetPattern() {
+    differentiator_.forgetPattern();
+    factorized_ = false;
+  }
 
   /// Replaces state.w by the solution of the residual at Level::kAcceleration. Uses Newton's method for w and keeps
   /// the derivatives while it contracts well. If Newton does not converge, a residual within the tolerance of the
@@ -48,6 +51,9 @@ class ConsistentStart {
   /// dependent is kSingular. For kNotFinite the detail names the row, and for a derivative the component
   /// (core/derivatives/derivative_fault.h). A failure leaves the state unchanged.
   StartReport apply(State<Real>& state, StartCheck check = StartCheck::kConstraints);
+  /// The same to eight digits, without a check, and with the derivatives that an earlier call has left as long as
+  /// Newton's method contracts well with them.
+  StartReport findRates(State<Real>& state);
   /// The same at the end of an integration, for `Multipliers::kConsistent`. If Newton does not converge, (a, k, z)
   /// stay those of the stages, and the reason is returned; otherwise the text is empty.
   std::string applyAtEnd(State<Real>& state);
@@ -57,7 +63,8 @@ class ConsistentStart {
   Vec<double> weightsOfMotion(const State<Real>& state) const;
   std::string dependentConstraints(const State<Real>& state) const;
   StartReport checkConstraints(const State<Real>& state);
-  StartReport determine(State<Real>& state, const char* place, double tolerated);
+  enum class Wanted { kAllDigits, kRates };
+  StartReport determine(State<Real>& state, const char* place, double tolerated, Wanted wanted = Wanted::kAllDigits);
   StartReport keep(const State<Real>& state, const char* place);
   bool factorize();
   void solve();
@@ -74,7 +81,8 @@ class ConsistentStart {
   Eigen::FullPivLU<Mat<Real>> dense_lu_;  // of scaled_
   Vec<Real> r_, dw_, given_;
   std::int64_t factorizations_ = 0;
-  Vec<double> scale_;  // of u, v, x, z
+  bool factorized_ = false;  // whether the factors of D_ are there
+  Vec<double> scale_;        // of u, v, x, z
 };
 
 }  // namespace irk

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -14,13 +15,6 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kNamed = 4;  // a remark is one line
-
-// Removes the element at `at` by the last one; the order does not matter.
-template <class T>
-void dropFrom(std::vector<T>& list, std::size_t at) {
-  list[at] = list.back();
-  list.pop_back();
-}
 
 // Cubic Hermite interpolation of y with the rates dy, at theta in [0, 1] of a step h.
 template <class Real>
@@ -44,6 +38,7 @@ Amounts<Real>::Amounts(const System<Real>& system, ConsistentStart<Real>& start,
       largest_(least_.size()) {
   small_.reserve(static_cast<std::size_t>(least_.size()));
   never_.reserve(static_cast<std::size_t>(scene_nx_));
+  fallen_.reserve(static_cast<std::size_t>(scene_nx_));
   negative_.reserve(static_cast<std::size_t>(scene_nx_));
 }
 
@@ -65,16 +60,11 @@ void Amounts<Real>::begin(const State<Real>& state, const ErrorNorm<Real>& norm)
 
 template <class Real>
 void Amounts<Real>::look(const State<Real>& from, const State<Real>& to) {
-  for (std::size_t at = 0; at < small_.size();) {
-    const Index i = small_[at];
+  std::erase_if(small_, [&](Index i) {
     const double size = std::abs(static_cast<double>(componentOf(to, i)));
     largest_[i] = std::max(largest_[i], size);
-    if (size < least_[i]) {
-      ++at;
-    } else {
-      dropFrom(small_, at);
-    }
-  }
+    return size >= least_[i];
+  });
   lookBelowZero(from, to);
 }
 
@@ -82,40 +72,58 @@ template <class Real>
 void Amounts<Real>::lookBelowZero(const State<Real>& from, const State<Real>& to) {
   const double t = static_cast<double>(to.t);
   const auto value = [&](Index i) { return static_cast<double>(to.x[first_x_ + i]); };
-  for (std::size_t at = 0; at < negative_.size();) {
-    Negative& found = negative_[at];
+  for (Negative& found : negative_) {
     if (value(found.i) < found.value) found.value = value(found.i), found.t = t;
-    const bool again = !found.declared && isBelowZero(to, found.i) && from.x[first_x_ + found.i] >= Real(0);
-    if (again && !cannotCross(first_x_ + found.i, from, to)) {
-      dropFrom(negative_, at);
-    } else {
-      ++at;
-    }
   }
-  for (std::size_t at = 0; at < never_.size();) {
-    const Index i = never_[at];
-    if (!isBelowZero(to, i)) {
-      ++at;
-      continue;
-    }
-    const bool declared = system_.nonNegative(i);
-    if (declared || cannotCross(first_x_ + i, from, to)) negative_.push_back({i, value(i), t, declared});
-    dropFrom(never_, at);
+  const auto falls_again = [&](const Negative& found) {
+    return !found.declared && isBelowZero(to, found.i) && from.x[first_x_ + found.i] >= Real(0);
+  };
+  fallen_.clear();
+  std::copy_if(negative_.begin(), negative_.end(), std::back_inserter(fallen_), falls_again);
+  std::erase_if(negative_, falls_again);
+  std::erase_if(never_, [&](Index i) {
+    if (!isBelowZero(to, i)) return false;
+    const Negative now{i, value(i), t, system_.nonNegative(i)};
+    (now.declared ? negative_ : fallen_).push_back(now);
+    return true;
+  });
+  if (fallen_.empty()) return;
+  clearThoseThatCross(from, to);
+  negative_.insert(negative_.end(), fallen_.begin(), fallen_.end());
+}
+
+// Removes from fallen_ those whose rate at zero leads below it, or is not known: first all at once at the end of the
+// step with those that are left at zero, until none is removed, then each at the time when it crosses zero.
+template <class Real>
+void Amounts<Real>::clearThoseThatCross(const State<Real>& from, const State<Real>& to) {
+  if (!at_) at_.emplace(sizes_);
+  const auto raise = [&](const std::vector<Negative>& below) {
+    for (const Negative& one : below) at_->x[first_x_ + one.i] = std::max(to.x[first_x_ + one.i], Real(0));
+  };
+  for (std::size_t before = 0; before != fallen_.size();) {
+    before = fallen_.size();
+    *at_ = to;
+    raise(fallen_);
+    raise(negative_);
+    const bool known = findRates();
+    std::erase_if(fallen_,
+                  [&](const Negative& one) { return !known || at_->w[sizes_.nu + first_x_ + one.i] < Real(0); });
   }
+  std::erase_if(fallen_, [&](const Negative& one) { return !cannotCross(first_x_ + one.i, from, to); });
 }
 
 template <class Real>
-bool Amounts<Real>::findRates(State<Real>& state) {
+bool Amounts<Real>::findRates() {
   const Counters kept = counters_;
-  const StartReport report = start_.apply(state, StartCheck::kNone);
+  const StartReport report = start_.findRates(*at_);
   counters_ = kept;
   return report.outcome == Outcome::kSuccess && report.determined;
 }
 
-// Sets crossing_->at to the step's polynomial between its ends.
+// Sets at_ to the polynomial through both ends and their rates.
 template <class Real>
-void Amounts<Real>::between(double theta) {
-  auto& [from, to, at] = *crossing_;
+void Amounts<Real>::between(double theta, const State<Real>& from, const State<Real>& to) {
+  State<Real>& at = *at_;
   const Real h = to.t - from.t;
   at.t = from.t + Real(theta) * h;
   for (Index j = 0; j < sizes_.nu; ++j) {
@@ -127,23 +135,20 @@ void Amounts<Real>::between(double theta) {
   }
 }
 
-// Whether k_i >= 0 where the polynomial through the rates at both ends crosses x_i = 0. False if rates are not known.
+// Whether k_i >= 0 where that polynomial crosses x_i = 0. False if the rates are not known there.
 template <class Real>
 bool Amounts<Real>::cannotCross(Index i, const State<Real>& from, const State<Real>& to) {
   constexpr int kHalvings = 40;
-  if (!crossing_) crossing_ = std::make_unique<Crossing>();
-  crossing_->from = from, crossing_->to = to, crossing_->at = from;
-  State<Real>& at = crossing_->at;
-  if (!findRates(crossing_->from) || !findRates(crossing_->to)) return false;
+  const Index k = sizes_.nu + i;
+  const Real h = to.t - from.t;
   double above = 0, below = from.x[i] < Real(0) ? 0 : 1;
-  for (int k = 0; k < kHalvings && below > 0; ++k) {
+  for (int halving = 0; halving < kHalvings && below > 0; ++halving) {
     const double middle = (above + below) / 2;
-    between(middle);
-    (at.x[i] < Real(0) ? below : above) = middle;
+    (hermite(middle, h, from.x[i], to.x[i], from.w[k], to.w[k]) < Real(0) ? below : above) = middle;
   }
-  between(below);
-  at.x[i] = Real(0);
-  return findRates(at) && at.w[sizes_.nu + i] >= Real(0);
+  between(below, from, to);
+  at_->x[i] = Real(0);
+  return findRates() && at_->w[k] >= Real(0);
 }
 
 template <class Real>

@@ -1,7 +1,7 @@
 // Remarks on components that the error control does not see, or that have a sign which they cannot have.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +16,8 @@ namespace irk {
 ///    the problem says so (System::nonNegative), or because their rate k_i is not negative wherever the computed
 ///    solution crosses x_i = 0 downwards. For a concentration k_i >= 0 at x_i = 0, so that an exact solution does not
 ///    cross zero (the rates are quasi-positive; Hundsdorfer & Verwer, Time-Dependent Advection-Diffusion-Reaction
-///    Equations, I.7). One crossing with a negative rate shows that a component is none; it is not looked at again.
+///    Equations, I.7). One negative rate shows that a component is none; it is not looked at again. Those that a step
+///    takes below zero are looked at together, as far as that clears them: each look computes all rates.
 /// Both are facts about a result that may be right; neither changes it. Evaluations are not counted. Allocates in its
 /// constructor, where a component first falls below zero, and in `remark`.
 template <class Real>
@@ -49,13 +50,10 @@ class Amounts {
     return static_cast<double>(state.x[first_x_ + i]) < -least_[2 * sizes_.nu + first_x_ + i];
   }
   void lookBelowZero(const State<Real>& from, const State<Real>& to);
-  /// A step that crosses zero: its ends, and a point of its polynomial between them.
-  struct Crossing {
-    State<Real> from, to, at;
-  };
+  void clearThoseThatCross(const State<Real>& from, const State<Real>& to);
   bool cannotCross(Index i, const State<Real>& from, const State<Real>& to);
-  bool findRates(State<Real>& state);
-  void between(double theta);
+  bool findRates();
+  void between(double theta, const State<Real>& from, const State<Real>& to);
   std::string belowTolerance() const;
 
   const System<Real>& system_;
@@ -69,7 +67,8 @@ class Amounts {
   Vec<double> largest_;       // magnitude so far, of small components
   std::vector<Index> never_;  // components of the scene's x that have not been below zero
   std::vector<Negative> negative_;
-  std::unique_ptr<Crossing> crossing_;  // made for the first one
+  std::vector<Negative> fallen_;   // undeclared ones that the last step has taken below zero
+  std::optional<State<Real>> at_;  // where rates are computed; made for the first one
 };
 
 }  // namespace irk

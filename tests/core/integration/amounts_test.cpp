@@ -139,6 +139,38 @@ TEST(Amounts, OneCrossingAsTheRateTellsClearsAComponent) {
   EXPECT_EQ(remarkOn(LaterFalling{}, {0.5, -0.5, 0.5, 0.5, -0.5}), "");
 }
 
+/// Components that follow sin t closely, by 1e6 (m - x_i) with their mean m: their rates have a round-off of 1e-10.
+/// From `shift` below that.
+struct ManySwinging {
+  static constexpr Index kCount = 60;
+  double shift;
+  long* evaluations;
+  Sizes sizes() const { return {.nx = kCount}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    ++*evaluations;
+    T mean = p.x[0] * 0.0;
+    for (Index i = 0; i < kCount; ++i) mean += (p.x[i] + shift) / static_cast<double>(kCount);
+    for (Index i = 0; i < kCount; ++i) {
+      r.x[i] = 1e6 * (mean - (p.x[i] + shift)) + cos(p.t) * (1.0 + 0.1 * static_cast<double>(i % 3)) - p.k[i];
+    }
+  }
+};
+
+long evaluationsOf(double shift) {
+  long evaluations = 0;
+  const ManySwinging swinging{shift, &evaluations};
+  State<double> start(swinging.sizes());
+  start.x.setConstant(0.01 - shift);
+  const auto swing = integrate<double>(swinging, start, 10, makeTableau<double>("radau_iia_3"), embedded(1e-4));
+  EXPECT_EQ(swing.outcome, Outcome::kSuccess) << swing.detail;
+  EXPECT_EQ(swing.detail, "");
+  return evaluations;
+}
+
+TEST(Amounts, ManyThatCrossZeroTakeFewEvaluations) { EXPECT_LT(10 * evaluationsOf(0), 13 * evaluationsOf(5)); }
+
 /// A -> C in any amounts: A = a0 e^-t, C = a0 - A.
 struct TinyAmounts {
   Sizes sizes() const { return {.nx = 3}; }
