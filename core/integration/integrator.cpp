@@ -65,7 +65,8 @@ class Integrator<Real>::Run {
     requireNoMemory(*system_, start, t_end);
     length_ = static_cast<double>(Real(t_end - start.t));
     beginTimes(start.t, t_end);
-    const Outcome outcome = trajectory_.begin(start, length_, *monitor_);
+    Outcome outcome = trajectory_.begin(start, length_, *monitor_);
+    if (outcome == Outcome::kSuccess) outcome = passTimes(t_end);  // one may be next to the start
     if (outcome != Outcome::kSuccess) return trajectory_.failed(outcome, 0, "no step taken");
     const bool fixed = hasFixedSteps(options_.step);
     Stop stop = fixed ? fixedSteps(t_end) : adaptiveSteps(t_end);
@@ -153,8 +154,7 @@ class Integrator<Real>::Run {
       Outcome outcome = trajectory_.commit(result, step, stop_at);
       if (outcome == Outcome::kSuccess) {
         stop_rule_.stepped(state());
-        reach(stop_at);
-        outcome = passTimes();
+        outcome = passTimes(end);
       }
       if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
       whole = false;
@@ -172,7 +172,7 @@ class Integrator<Real>::Run {
       if (Stop stop = askCaller(h)) return stop;
       if (Stop stop = cannotGoOn(attempts, h, t_end)) return stop;
       if (Stop stop = adaptiveStep(h, beforeTime(t_end))) return stop;
-      const Outcome outcome = passTimes();
+      const Outcome outcome = passTimes(t_end);
       if (outcome != Outcome::kSuccess) return {outcome, h, "the switch cannot be passed"};
     }
     return {};
@@ -189,12 +189,14 @@ class Integrator<Real>::Run {
   Real beforeTime(const Real& end) const {
     return next_time_ < times_.size() && times_[next_time_] < end ? times_[next_time_] : end;
   }
-  Outcome passTimes() {
-    Outcome outcome = Outcome::kSuccess;
-    while (outcome == Outcome::kSuccess && next_time_ < times_.size() && state().t >= times_[next_time_]) {
-      outcome = trajectory_.passTime(static_cast<Index>(next_time_++));
+  // Passes the times that are reached, before `end`.
+  Outcome passTimes(const Real& end) {
+    for (;;) {
+      reach(beforeTime(end));
+      if (next_time_ >= times_.size() || state().t < times_[next_time_]) return Outcome::kSuccess;
+      const Outcome outcome = trajectory_.passTime(static_cast<Index>(next_time_++));
+      if (outcome != Outcome::kSuccess) return outcome;
     }
-    return outcome;
   }
 
   // One attempt. `h` is its size; on return the size of the next attempt.
@@ -231,7 +233,6 @@ class Integrator<Real>::Run {
     if (outcome != Outcome::kSuccess) return {outcome, size, "the switch cannot be passed"};
     stop_rule_.stepped(state());
     h = std::min(trajectory_.nextSize(result, size, h), h_max_);
-    reach(t_end);
     return {};
   }
 
@@ -278,7 +279,7 @@ class Integrator<Real>::Run {
   }
   double smallestSize() const { return std::max(options_.step.h_min, resolvedSize()); }
 
-  // After a switch next to the end the rest is too short for a step.
+  // After a switch or a time next to the end the rest is too short for a step.
   void reach(const Real& end) {
     if (state().t < end && static_cast<double>(Real(end - state().t)) < resolvedSize()) {
       trajectory_.endAt(end);

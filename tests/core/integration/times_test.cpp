@@ -90,6 +90,20 @@ TEST(Times, AtTheEndAndTheStartNothingHappens) {
   EXPECT_EQ(integratePulses(at_start, options, 1).solution.state.d[0], 0);
 }
 
+// Sums and products of sampling times differ in their last digits: 3 * 0.1 and 0.3. No step fits between them.
+TEST(Times, ThatDifferByRoundOffAreAllPassed) {
+  Pulses close;
+  const double next = std::nextafter(0.3, 1), end = std::nextafter(0.8, 1);
+  close.at = {1e-40, 0.3, next, 0.8};
+  for (const auto& options : {adaptive(1e-11), embedded(1e-11), fixedSteps(0.125)}) {
+    const Integrated run = integratePulses(close, options, end);
+    ASSERT_EQ(run.solution.outcome, Outcome::kSuccess) << run.solution.detail;
+    EXPECT_EQ(run.solution.state.t, end);
+    EXPECT_EQ(run.solution.state.d[0], 4);
+    EXPECT_NEAR(run.solution.state.x[0], close.exact(end), 1e-8);
+  }
+}
+
 TEST(Times, OutOfOrderAreRefused) {
   Pulses problem;
   problem.at = {1, 0.5};
