@@ -30,8 +30,9 @@ class StagePredictor {
   virtual void fill(const StagePolynomial<Real>& past, const State<Real>& from, const Real& h, Mat<Real>& W) = 0;
 };
 
+/// Arguments: the scheme, and the tolerance of steps (the larger one of rtol and atol), 0 for fixed steps.
 template <class Real>
-using PredictorMaker = std::function<std::unique_ptr<StagePredictor<Real>>(const Scheme<Real>&)>;
+using PredictorMaker = std::function<std::unique_ptr<StagePredictor<Real>>(const Scheme<Real>&, double tolerance)>;
 
 /// A strategy of the axis `predictor`: the source of start values.
 template <>
@@ -50,8 +51,8 @@ Catalogue<Predictor>& catalogue<Predictor>();
 template <class Real>
 class StartValues {
  public:
-  /// Keeps a reference to the scheme.
-  StartValues(Predictor kind, const Scheme<Real>& scheme);
+  /// Keeps a reference to the scheme. `tolerance`: see PredictorMaker.
+  StartValues(Predictor kind, const Scheme<Real>& scheme, double tolerance);
 
   /// Writes start values W (n x s) for the step [from.t, from.t + h]: from the polynomial `past` (of any number of
   /// stages) if it is valid, else from (a, k, z) of `from`. The explicit first stage always comes from `from`.

@@ -7,6 +7,7 @@
 #include "core/base/constants.h"
 #include "core/base/small_product.h"
 #include "core/base/threads.h"
+#include "core/options/fixed_steps.h"
 #include "irk/multiprecision.h"
 
 namespace irk {
@@ -55,7 +56,7 @@ Stepper<Real>::Stepper(const System<Real>& system, const Scheme<Real>& scheme, c
                      : nullptr),
       newton_(makeNewton(options, system.sizes(), scheme)),
       norm_(norm),
-      start_values_(options.predictor, scheme),
+      start_values_(options.predictor, scheme, hasFixedSteps(options.step) ? 0 : norm.tolerance()),
       W_(system.sizes().n(), scheme.s),
       modes_(modesOf(system, options, norm, counters)),
       rate_norm_(system.sizes(), norm),

@@ -45,7 +45,7 @@ Strategy<StepControl> steady() {
           }};
 }
 Strategy<Predictor> zero() {
-  const auto make = [](const Scheme<double>&) { return std::make_unique<ZeroPredictor>(); };
+  const auto make = [](const Scheme<double>&, double) { return std::make_unique<ZeroPredictor>(); };
   return {.id = kZero, .meaning = "nothing is known", .make = {make, nullptr}};
 }
 
