@@ -31,5 +31,6 @@ IRK_REGISTER {
   irk::registerStrategy<irk::Predictor>(
       {.id = {"linear"},
        .meaning = "the line through the last two stages",
-       .make = {[](const irk::Scheme<double>& scheme) { return std::make_unique<LinearPredictor>(scheme); }, {}}});
+       .make = {[](const irk::Scheme<double>& scheme, double) { return std::make_unique<LinearPredictor>(scheme); },
+                {}}});
 }
