@@ -199,7 +199,8 @@ struct NewtonOptions {
   /// (with the estimate `richardson` a tenth of it, in index 3 another tenth), but not below 10 eps/rtol; from 1000
   /// accepted steps on it falls with their number, down to 10 eps/rtol.
   double kappa = 0;
-  /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this.
+  /// `simplified`, `broyden`: the Jacobian is kept for the next step while theta stays below this. Unless it is 0, a
+  /// dense one of 40 unknowns and more is kept while theta stays below 0.1.
   double keep_jacobian_below = 1e-3;
 };
 

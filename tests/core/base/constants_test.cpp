@@ -59,6 +59,7 @@ TEST(Constants, NoOthersDecide) {
                                     "kMostMultiplier",
                                     "kSmallerPivot",
                                     "kDenseUnknowns",
+                                    "kOfCostlyOnes",
                                     "kUnknownFloor",
                                     "kUnknownTheta",
                                     "kProbe",

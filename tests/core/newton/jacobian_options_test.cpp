@@ -56,6 +56,35 @@ IntegratorOptions oneStep(double h) {
   return o;
 }
 
+/// All components together follow cos t, and each has a cubic force: a full Jacobian that changes.
+struct Full {
+  Index n;
+  Sizes sizes() const { return {.nx = n}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::cos;
+    T mean = p.x[0] * 0.0;
+    for (Index i = 0; i < n; ++i) mean += p.x[i] / static_cast<double>(n);
+    for (Index i = 0; i < n; ++i) r.x[i] = 10 * (mean - p.x[i]) - p.x[i] * p.x[i] * p.x[i] + cos(p.t) - p.k[i];
+  }
+};
+
+Counters costsOfFull(Index n, double keep_below) {
+  IntegratorOptions options = embedded(1e-5);
+  options.newton.keep_jacobian_below = keep_below;
+  const auto start = State<double>(Full{n}.sizes());
+  const auto solved = integrate<double>(Full{n}, start, 10, makeTableau<double>("radau_iia_3"), options);
+  EXPECT_EQ(solved.outcome, Outcome::kSuccess) << solved.detail;
+  return solved.counters;
+}
+
+TEST(KeepJacobianBelow, IsATenthAtLeastWhereNewFactorsCostAStep) {
+  EXPECT_GT(costsOfFull(39, 1e-3).jacobians, 2 * costsOfFull(39, 0.1).jacobians);
+  EXPECT_EQ(costsOfFull(40, 1e-3).jacobians, costsOfFull(40, 0.1).jacobians);
+  EXPECT_GT(costsOfFull(40, 0).jacobians, 2 * costsOfFull(40, 0.1).jacobians);
+  EXPECT_LT(costsOfFull(40, 0.5).jacobians, costsOfFull(40, 0.1).jacobians);
+}
+
 TEST(JacobianPointOption, IsWhereTheDerivativesAreAsked) {
   const double h = 0.25, a0 = -std::sin(0.5);
   const auto duals = [&](JacobianPoint point) {
