@@ -5,8 +5,8 @@
 // Eigen's AutoDiffScalar does not: nested over a multiprecision number it rejects `double` operands,
 // and its abs() mixes int with the scalar. DualNumber has no expression templates, so that `auto` is
 // safe in a user's residual.
-// Functions: abs, sqrt, cbrt, pow, hypot, exp, expm1, log, log1p, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh,
-// tanh.
+// Functions: abs, fabs, sqrt, cbrt, pow, hypot, exp, expm1, log, log1p, sin, cos, tan, asin, acos, atan, atan2, sinh,
+// cosh, tanh; floor, ceil, fmod.
 #pragma once
 
 #include <Eigen/Core>
@@ -156,6 +156,20 @@ struct DualNumber {
   friend bool operator==(const DualNumber& a, const DualNumber& b) { return a.value == b.value; }
 
   friend DualNumber abs(const DualNumber& a) { return a.value < T(0) ? -a : a; }
+  friend DualNumber fabs(const DualNumber& a) { return abs(a); }
+  // Steps in time: a scene declares the times at which they jump.
+  friend DualNumber floor(const DualNumber& a) {
+    using std::floor;
+    return DualNumber(T(floor(a.value)));
+  }
+  friend DualNumber ceil(const DualNumber& a) { return -floor(-a); }
+  /// The remainder of a / s with the sign of a, for a constant s.
+  template <class S>
+  requires detail::ConstantFor<S, T>
+  friend DualNumber fmod(const DualNumber& a, const S& s) {
+    const DualNumber turns = a / s;
+    return a - s * (turns.value < T(0) ? ceil(turns) : floor(turns));
+  }
   friend DualNumber sqrt(const DualNumber& a) {
     using std::sqrt;
     const T s = sqrt(a.value);

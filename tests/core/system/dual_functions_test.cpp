@@ -20,8 +20,8 @@ struct Function {
 
 template <class T>
 std::vector<Function<T>> functions() {
-  using std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::cosh, std::expm1, std::hypot, std::log1p, std::pow,
-      std::sinh, std::tan;
+  using std::acos, std::asin, std::atan, std::atan2, std::cbrt, std::ceil, std::cosh, std::expm1, std::fabs, std::floor,
+      std::fmod, std::hypot, std::log1p, std::pow, std::sinh, std::tan;
   return {{"tan", [](const T& x) { return T(tan(x)); }},
           {"asin", [](const T& x) { return T(asin(x)); }},
           {"acos", [](const T& x) { return T(acos(x)); }},
@@ -37,6 +37,11 @@ std::vector<Function<T>> functions() {
           {"2 to the x", [](const T& x) { return T(pow(T(2), x)); }},
           {"atan2(x, 1 - x)", [](const T& x) { return T(atan2(x, T(T(1) - x))); }},
           {"atan2(x, -1)", [](const T& x) { return T(atan2(x, T(-1))); }},
+          {"fabs(x^2 - x)", [](const T& x) { return T(fabs(T(x * x - x))); }},
+          {"x floor(5 x)", [](const T& x) { return T(x * floor(T(5.0 * x))); }},
+          {"x ceil(-5 x)", [](const T& x) { return T(x * ceil(T(-5.0 * x))); }},
+          {"fmod(x^2, 0.25)", [](const T& x) { return T(fmod(T(x * x), 0.25)); }},
+          {"fmod(-x^2, 0.25)", [](const T& x) { return T(fmod(T(-x * x), 0.25)); }},
           {"hypot(x, x^2)", [](const T& x) { return T(hypot(x, T(x * x))); }}};
 }
 
