@@ -128,8 +128,14 @@ std::size_t Differentiator<Real>::directions() const {
 }
 
 template <class Real>
-void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+const std::shared_ptr<const Pattern>& Differentiator<Real>::pattern(Level level, const Point<Real>& p) {
   if (detects() && !looked_) look(level, p);
+  return pattern_;
+}
+
+template <class Real>
+void Differentiator<Real>::evaluate(Level level, const Point<Real>& p, Linearization<Real>& out) {
+  pattern(level, p);
   differentiate(level, p, out);
   if (!incomplete_) return;
   if (look(level, p)) {

@@ -94,6 +94,8 @@ class Differentiator {
                  std::shared_ptr<Scratch> scratch = nullptr, int threads = 1);
   const std::shared_ptr<Scratch>& scratch() const { return scratch_; }
 
+  /// The pattern of the matrices, which is searched near p unless it is known.
+  const std::shared_ptr<const Pattern>& pattern(Level level, const Point<Real>& p);
   /// Evaluates the matrices at p. `out` gets the present pattern if it has another one. Derivatives that are not
   /// finite appear as NaN in `out`.
   void evaluate(Level level, const Point<Real>& p, Linearization<Real>& out);

@@ -90,8 +90,7 @@ StartReport DaeProblem::begin(State<double>& state, bool new_run, PeerValues& to
   to.y << state.u, state.v, state.x, state.z();
   to.yp << state.v, state.a(), state.k(), Vec<double>::Zero(sizes_.nz);
   if (dense_) return report;
-  differentiator_.evaluate(Level::kFormulated, at(state.t, to.y.data(), to.yp.data()), D_);
-  pattern_ = assembly_.pattern(D_.pattern);
+  pattern_ = assembly_.pattern(differentiator_.pattern(Level::kFormulated, at(state.t, to.y.data(), to.yp.data())));
   return report;
 }
 

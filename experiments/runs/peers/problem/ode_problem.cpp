@@ -47,8 +47,7 @@ StartReport OdeProblem::begin(State<double>& state, bool new_run, PeerValues& to
   direct_.look(state.t, to.y.data(), d_);
   if (dense_) return {};
   if (new_run) differentiator_.forgetPattern();
-  differentiator_.evaluate(Level::kFormulated, point(state.t, to.y.data()), D_);
-  pattern_ = assembly_.pattern(D_.pattern);
+  pattern_ = assembly_.pattern(differentiator_.pattern(Level::kFormulated, point(state.t, to.y.data())));
   return {};
 }
 
