@@ -65,9 +65,8 @@ class SimplifiedNewton : public NewtonBase<Real> {
       result = iterate(c, W, patience);
       result.iterations += before;
     }
-    if (result.outcome != Outcome::kSuccess || result.theta > shared.keepBelow(this->options_.newton.keep_jacobian_below)) {
-      shared.markStale();
-    }
+    const double keep_below = shared.keepBelow(this->options_.newton.keep_jacobian_below);
+    if (result.outcome != Outcome::kSuccess || result.theta > keep_below) shared.markStale();
     return result;
   }
   void forget() override {

@@ -123,8 +123,7 @@ std::span<const OptionField> optionFields() {
              "Newton's method fails after this many iterations."),
       number("keep_jacobian_below", IRK_MEMBER(newton.keep_jacobian_below), Range::from(0).below(1),
              "The Jacobian is kept for the next step while Newton's method contracts by less than this factor (unless "
-             "it is "
-             "0, a dense one of 40 unknowns and more by less than 0.1).",
+             "it is 0, a dense one of 40 unknowns and more by less than 0.1).",
              ofContraction),
       number("kappa", IRK_MEMBER(newton.kappa), Range::from(0),
              "Newton's method stops when its error falls below this part of the tolerance; 0 = by the estimate, "
