@@ -15,6 +15,9 @@ constexpr std::int64_t kMaxAttempts = 1'000'000'000'000;
 constexpr std::int64_t kMaxNewtonIterations = 1000, kMaxThreads = 1024, kMaxLooks = 1000;
 
 using Options = IntegratorOptions;
+constexpr std::size_t kNested = 3;  // tolerances, newton, step
+constexpr std::size_t kOptions = memberCount<IntegratorOptions>() - kNested + memberCount<Tolerances>() +
+                                 memberCount<NewtonOptions>() + memberCount<StepOptions>();
 
 // Returns the reason why an option has no effect beside the others; empty if it has an effect.
 using Unused = std::string_view (*)(const Options&);
@@ -154,11 +157,7 @@ std::span<const OptionField> optionFields() {
       number("threads", IRK_MEMBER(threads), Range::integers(1, kMaxThreads),
              "Threads inside one integration; the numbers do not depend on it. Below 100 unknowns one is taken."),
   });
-  constexpr std::size_t kNested = 3;  // tolerances, newton, step
-  static_assert(std::tuple_size_v<decltype(fields)> == memberCount<IntegratorOptions>() - kNested +
-                                                           memberCount<Tolerances>() + memberCount<NewtonOptions>() +
-                                                           memberCount<StepOptions>(),
-                "an option has no line in the table above");
+  static_assert(std::tuple_size_v<decltype(fields)> == kOptions, "an option has no line in the table above");
   return fields;
 }
 #undef IRK_MEMBER
