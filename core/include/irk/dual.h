@@ -157,7 +157,7 @@ struct DualNumber {
 
   friend DualNumber abs(const DualNumber& a) { return a.value < T(0) ? -a : a; }
   friend DualNumber fabs(const DualNumber& a) { return abs(a); }
-  // Steps in time: a scene declares the times at which they jump.
+  // These jump: a scene that uses them of t declares the times.
   friend DualNumber floor(const DualNumber& a) {
     using std::floor;
     return DualNumber(T(floor(a.value)));
@@ -167,8 +167,10 @@ struct DualNumber {
   template <class S>
   requires detail::ConstantFor<S, T>
   friend DualNumber fmod(const DualNumber& a, const S& s) {
-    const DualNumber turns = a / s;
-    return a - s * (turns.value < T(0) ? ceil(turns) : floor(turns));
+    using std::fmod;
+    DualNumber r(a);
+    r.value = T(fmod(a.value, detail::constant(s)));
+    return r;
   }
   friend DualNumber sqrt(const DualNumber& a) {
     using std::sqrt;

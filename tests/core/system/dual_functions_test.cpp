@@ -76,6 +76,16 @@ TEST(DualFunctions, DerivativesAreThoseOfDifferences) {
   }
 }
 
+// 1 / 0.1 is rounded to 10, but the double 0.1 is above a tenth and fits into 1 only nine times. Numbers and dual
+// numbers have to jump at the same time.
+TEST(DualFunctions, RemaindersAreThoseOfNumbers) {
+  for (const double x : {1.0, -1.0, 0.6, 1e9 + 0.1}) {
+    const Rate<double> r = fmod(Rate<double>(x, 2.0), 0.1);
+    EXPECT_EQ(r.value, std::fmod(x, 0.1)) << x;
+    EXPECT_EQ(r.d[0], 2.0);
+  }
+}
+
 TEST(DualFunctions, PowersWhereLogarithmsDoNotExist) {
   const Rate<double> negative = pow(Rate<double>(-2.0, 1.0), 3);
   EXPECT_DOUBLE_EQ(negative.value, -8);
