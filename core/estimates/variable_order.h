@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/recycled.h"
 #include "core/control/order_controller.h"
 #include "core/estimates/defect.h"
 #include "core/estimates/embedded.h"
@@ -42,7 +43,7 @@ class VariableOrder final : public StepAttempt<Real> {
   }
 
  private:
-  struct Member {
+  struct Member : Recycled {
     Member(const StepAttemptSetup<Real>& setup, const Scheme<Real>& s)
         : scheme(s),
           stepper(setup.system, s, setup.options, setup.jacobian, setup.norm, setup.counters),

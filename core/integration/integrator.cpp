@@ -7,6 +7,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/in_use.h"
+#include "core/base/recycled.h"
 #include "core/control/stall_detector.h"
 #include "core/integration/backward.h"
 #include "core/integration/memory_check.h"
@@ -40,7 +41,7 @@ struct Stop {
 }  // namespace
 
 template <class Real>
-class Integrator<Real>::Run {
+class Integrator<Real>::Run : public Recycled {
  public:
   Run(std::shared_ptr<const System<Real>> system, SchemeList<Real> schemes, std::size_t start,
       const IntegratorOptions& options, const Vec<double>& scale)

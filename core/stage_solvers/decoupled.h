@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/recycled.h"
 #include "core/linear/block_form.h"
 #include "core/linear/dense_lu.h"
 #include "core/linear/interleaved_lu.h"
@@ -18,7 +19,7 @@ namespace irk {
 
 /// Lu is DenseLu or SparseLu; one sparse analysis serves for all blocks and step sizes. Contracts: StageSolver.
 template <class Real, template <class> class Lu>
-class Decoupled final : public StageSolver<Real> {
+class Decoupled final : public StageSolver<Real>, public Recycled {
  public:
   explicit Decoupled(const StageSolverSetup<Real>& setup);  ///< setup.form must exist
   Outcome factorize(std::span<const Linearization<Real>> at, const Real& h) override;

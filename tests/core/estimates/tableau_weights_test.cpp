@@ -50,8 +50,8 @@ IntegratorOptions withWeights(double tolerance) {
 }
 
 template <class P>
-Solution<double> run(const P& problem, const State<double>& start, double t_end, const Tableau<double>& method,
-                     double tolerance, double* first_error = nullptr, double h = 0) {
+Solution<double> byTableau(const P& problem, const State<double>& start, double t_end, const Tableau<double>& method,
+                           double tolerance, double* first_error = nullptr, double h = 0) {
   IntegratorOptions options = withWeights(tolerance);
   options.step.h = h;
   Integrator<double> integrator(makeSystem<double>(problem), method, options);
@@ -68,8 +68,8 @@ Solution<double> run(const P& problem, const State<double>& start, double t_end,
 void expectOrder(const Tableau<double>& method, int p) {
   double coarse = 0, fine = 0;
   const double h = 0.02;
-  ASSERT_EQ(run(Riccati{}, riccatiStart<double>(), h, method, 1, &coarse, h).outcome, Outcome::kSuccess);
-  ASSERT_EQ(run(Riccati{}, riccatiStart<double>(), h / 2, method, 1, &fine, h / 2).outcome, Outcome::kSuccess);
+  ASSERT_EQ(byTableau(Riccati{}, riccatiStart<double>(), h, method, 1, &coarse, h).outcome, Outcome::kSuccess);
+  ASSERT_EQ(byTableau(Riccati{}, riccatiStart<double>(), h / 2, method, 1, &fine, h / 2).outcome, Outcome::kSuccess);
   EXPECT_NEAR(std::log2(coarse / fine), p + 1, 0.25) << method.id;
 }
 TEST(TableauWeights, TheEstimateHasTheLowerOrder) {
@@ -80,7 +80,7 @@ TEST(TableauWeights, TheEstimateHasTheLowerOrder) {
 TEST(TableauWeights, TheErrorFollowsTheTolerance) {
   for (const auto& method : {sdirk4(), trBdf2()}) {
     for (const double tolerance : {1e-4, 1e-7}) {
-      const auto solution = run(Riccati{}, riccatiStart<double>(), 3, method, tolerance);
+      const auto solution = byTableau(Riccati{}, riccatiStart<double>(), 3, method, tolerance);
       ASSERT_EQ(solution.outcome, Outcome::kSuccess) << method.id << ": " << solution.detail;
       // Each step errs by a tolerance at most, in a norm with the weight 1 + |x|, and the equation damps.
       const double most = 3.5 * tolerance * static_cast<double>(solution.counters.steps_accepted);
@@ -99,7 +99,7 @@ TEST(TableauWeights, AreFilteredForStiffComponents) {
     return -1e6 * (p.x[0] - cos(p.t)) - sin(p.t);
   }};
   for (const auto& method : {sdirk4(), trBdf2()}) {
-    const auto solution = run(stiff, startOf(stiff, {.x = {1}}), 10, method, 1e-4);
+    const auto solution = byTableau(stiff, startOf(stiff, {.x = {1}}), 10, method, 1e-4);
     ASSERT_EQ(solution.outcome, Outcome::kSuccess) << method.id << ": " << solution.detail;
     EXPECT_NEAR(solution.state.x[0], std::cos(10.0), 1e-3) << method.id;
     EXPECT_LT(solution.counters.steps_accepted, 200) << method.id;
@@ -109,7 +109,7 @@ TEST(TableauWeights, AreFilteredForStiffComponents) {
 TEST(TableauWeights, EstimateConstrainedMotions) {
   const auto accurate = integrate<double>(CartesianPendulum{}, pendulumStart<double>(), 1,
                                           makeTableau<double>("radau_iia_5"), adaptive(1e-11));
-  const auto solution = run(CartesianPendulum{}, pendulumStart<double>(), 1, sdirk4(), 1e-6);
+  const auto solution = byTableau(CartesianPendulum{}, pendulumStart<double>(), 1, sdirk4(), 1e-6);
   ASSERT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_LT((solution.state.u - accurate.state.u).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT(solution.counters.steps_accepted, 1000);
