@@ -38,8 +38,6 @@ Amounts<Real>::Amounts(const System<Real>& system, ConsistentStart<Real>& start,
       largest_(least_.size()) {
   small_.reserve(static_cast<std::size_t>(least_.size()));
   never_.reserve(static_cast<std::size_t>(scene_nx_));
-  fallen_.reserve(static_cast<std::size_t>(scene_nx_));
-  negative_.reserve(static_cast<std::size_t>(scene_nx_));
 }
 
 template <class Real>
@@ -112,8 +110,11 @@ void Amounts<Real>::clearThoseThatCross(const State<Real>& from, const State<Rea
   std::erase_if(fallen_, [&](const Negative& one) { return !cannotCross(first_x_ + one.i, from, to); });
 }
 
+// Computes the rates in at_. Components next to zero, which have never left their tolerance below it, are taken as
+// zero: what they have below it is an error that would lead others below zero.
 template <class Real>
 bool Amounts<Real>::findRates() {
+  for (const Index i : never_) at_->x[first_x_ + i] = std::max(at_->x[first_x_ + i], Real(0));
   const Counters kept = counters_;
   const StartReport report = start_.findRates(*at_);
   counters_ = kept;

@@ -101,9 +101,20 @@ struct LaterFalling {
   }
 };
 
-/// The remark on steps from one of these values of x_0 to the next, one per unit of time.
+/// x_0' = 100 (x_1 - x_0): x_0 cannot cross zero as long as x_1 >= 0.
+struct Fed {
+  Sizes sizes() const { return {.nx = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 100 * (p.x[1] - p.x[0]) - p.k[0];
+    r.x[1] = -p.k[1];
+  }
+};
+
+/// The remark on steps from one of these values of x_0 to the next, one per unit of time. x_1 goes from 1 to `second`.
 template <class P>
-std::string remarkOn(const P& problem, const std::vector<double>& values, double tol = 0.01) {
+std::string remarkOn(const P& problem, const std::vector<double>& values, double second = 1) {
+  constexpr double tol = 0.01;
   const auto system = makeSystem<double>(problem, {});
   Counters counters;
   ConsistentStart<double> start(*system, DerivativeSource::kAutomatic, false, &counters);
@@ -114,7 +125,7 @@ std::string remarkOn(const P& problem, const std::vector<double>& values, double
   amounts.begin(from, norm);
   for (std::size_t i = 1; i < values.size(); ++i) {
     to.t = from.t + 1;
-    to.x << values[i], 1;
+    to.x << values[i], second;
     amounts.look(from, to);
     from = to;
   }
@@ -131,6 +142,16 @@ TEST(Amounts, AnUndeclaredAmountBelowZeroIsNamed) {
   EXPECT_EQ(remarkOn(FastDecay{0}, {0.5, -0.009}), "") << "within the tolerance";
   EXPECT_EQ(remarkOn(FastDecay{0}, {-0.5, -0.6}), "") << "negative from the start";
   EXPECT_EQ(remarkOn(FastDecay{0.1}, {0.5, -0.05}), "") << "the exact solution goes to -0.1";
+}
+
+// Another component that is below zero by less than its tolerance does not make the rate lead there: it is zero.
+TEST(Amounts, OthersNextToZeroAreTakenAsZero) {
+  const std::string named = "x[0] falls to -0.05 at t = 1, but its rate at zero does not lead below zero";
+  EXPECT_EQ(remarkOn(Fed{}, {0.5, -0.05}), named);
+  EXPECT_EQ(remarkOn(Fed{}, {0.5, -0.05}, -0.009), named);
+  EXPECT_EQ(remarkOn(Fed{}, {0.5, -0.05}, -0.5),
+            "x[1] falls to -0.5 at t = 1, but its rate at zero does not lead below zero")
+      << "x_0 follows x_1";
 }
 
 TEST(Amounts, OneCrossingAsTheRateTellsClearsAComponent) {
