@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/newton/evidence.h"
 #include "core/newton/newton.h"
 #include "core/newton/newton_base.h"
 #include "core/options/fixed_steps.h"
@@ -34,8 +35,9 @@ constexpr double kUnknownTheta = 1;
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
 /// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place if the increment is
-/// below the tolerance. Later increments must be as small (kTrustedIncrement). With Broyden's
-/// updates the reported theta is the first one, that of the matrix itself.
+/// below the tolerance. Later increments must be as small (kTrustedIncrement). No adaptive step ends after one
+/// iteration unless the residual has fallen (ResidualEvidence). With Broyden's updates the reported theta is the first
+/// one, that of the matrix itself.
 ///
 /// The first theta shows how fast the error of the start values decays. That error need not contain the components that
 /// the matrix solves worst; they show from the third increment on. Where kappa is limited by round-off (tight
@@ -48,7 +50,10 @@ class SimplifiedNewton : public NewtonBase<Real> {
 
  public:
   SimplifiedNewton(const IntegratorOptions& options, const Sizes& sizes, const Scheme<Real>& scheme)
-      : Base(options, sizes, scheme), limit_(incrementLimit<Real>(options)), adaptive_(!hasFixedSteps(options.step)) {}
+      : Base(options, sizes, scheme),
+        limit_(incrementLimit<Real>(options)),
+        adaptive_(!hasFixedSteps(options.step)),
+        evidence_(sizes) {}
 
   NewtonResult solve(NewtonContext<Real>& c, Mat<Real>& W) override {
     auto& shared = c.matrix.shared();
@@ -92,11 +97,13 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
     double previous = 0, before_previous = 0;
+    bool doubted = false;  // increments are small enough, but the residual has not followed them
     if (updates_) updates_->begin(theta_ > kWorthUpdates, this->row_weights_);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
       ++c.counters.newton_iterations;
       if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
+      if (m == 0 && adaptive_) evidence_.keep(this->R_);
       const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
@@ -106,7 +113,9 @@ class SimplifiedNewton : public NewtonBase<Real> {
         if (!updates_ || m == 1) result.theta = theta_ = is_bound ? std::min(theta, result.theta) : theta;
         // Increments at round-off no longer contract; above round-off this is divergence.
         const bool may_stagnate = theta >= kSlowContraction && norm <= kStagnationUnits * this->round_off_;
-        if (may_stagnate && norm >= kSlowContraction * before_previous) return result;
+        if (may_stagnate && norm >= kSlowContraction * before_previous) {
+          return doubted && !isRoundOffOfLast(c, W) ? fail(result, Outcome::kNewtonFailed) : result;
+        }
         eta = of_step = etaOf(theta);
         // Where eta |dw| is small enough already, so is its product with any power of theta < 1.
         const bool slow =
@@ -114,6 +123,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
         const bool stuck = theta >= kStuck && patience == Patience::kNone;
         if (!may_stagnate && (stuck || slow)) {
           if (!isRoundOff(c, W, norm)) return fail(result, Outcome::kNewtonFailed);
+          if (doubted && !isRoundOffOfLast(c, W)) return fail(result, Outcome::kNewtonFailed);
           result.round_off = norm;
           return result;
         }
@@ -125,8 +135,11 @@ class SimplifiedNewton : public NewtonBase<Real> {
       }
       const bool trusted = norm <= kTrustedIncrement;
       if ((trusted && eta * norm <= kappa) || norm <= kRoundOffUnits * this->round_off_) {
-        eta_ = std::isfinite(eta) ? eta : of_step;
-        return result;
+        doubted = adaptive_ && (m == 0 || doubted) && !evidence_.holds(c, W, this->row_weights_, kappa);
+        if (!doubted) {
+          eta_ = std::isfinite(eta) ? eta : of_step;
+          return result;
+        }
       }
       before_previous = previous;
       previous = norm;
@@ -159,6 +172,11 @@ class SimplifiedNewton : public NewtonBase<Real> {
     c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
     return c.norm.increment(this->R_, this->first_, this->row_weights_);
   }
+  // The same of an increment that the matrix makes too small (ResidualEvidence).
+  bool isRoundOffOfLast(NewtonContext<Real>& c, const Mat<Real>& W) {
+    lastDigits(c, W);
+    return evidence_.isRoundOff(c, W, change_, this->row_weights_, changed_);
+  }
   // Sets change_ to last digits of w, and of u, v, x to which h^2 a, h a and h k are added; with alternating signs.
   void lastDigits(const NewtonContext<Real>& c, const Mat<Real>& W) {
     using std::abs;
@@ -183,6 +201,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
 
   IncrementLimit limit_;
   bool adaptive_;
+  ResidualEvidence<Real> evidence_;
   Mat<Real> before_, change_, changed_;  // of `measuredFloor`; empty until its first use
   double eta_ = 1, theta_ = 1;
   double slowest_ = kUnknownTheta;  // theta of the last step's last increment, the third or a later one

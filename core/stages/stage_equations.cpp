@@ -140,6 +140,15 @@ bool StageEquations<Real>::residual(const Mat<Real>& W, Mat<Real>& R) {
 }
 
 template <class Real>
+bool StageEquations<Real>::lastResidual(const Mat<Real>& W, Vec<Real>& r) {
+  place(W);
+  const Index last = scheme_.s - 1;
+  system_.evaluatePoints(points(W), last, last + 1, r.data());
+  if (scaled_) r.array() *= scales_.array();
+  return areFinite(r.data(), r.size());
+}
+
+template <class Real>
 StagePoints<Real> StageEquations<Real>::points(const Mat<Real>& W) const {
   return {sizes_, t_.data(), U_.data(), V_.data(), X_.data(), W.data(), from_->d.data()};
 }

@@ -23,6 +23,9 @@ class StageEquations {
   /// before `scheme.first` belong to known stages and are zero. Returns false if a residual is not finite.
   [[nodiscard]] bool residual(const Mat<Real>& W, Mat<Real>& R);
 
+  /// The same of the last stage alone, to r (n).
+  [[nodiscard]] bool lastResidual(const Mat<Real>& W, Vec<Real>& r);
+
   /// Computes u, v, x of the stages W, without the residual.
   void place(const Mat<Real>& W);
   /// The point of stage i with u, v, x of the last `residual` or `place`; for stage-wise derivatives. Where the

@@ -1,7 +1,9 @@
 // What Newton's method concludes from the sizes of its increments.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/core/one_step.h"
 
@@ -124,6 +126,77 @@ TEST(Increments, ALargerOneEndsAStepThatCanBeShortened) {
   const auto solution = follow(2000, options);
   EXPECT_EQ(solution.outcome, Outcome::kSuccess) << solution.detail;
   EXPECT_GT(solution.counters.steps_rejected_newton, 0);
+}
+
+// Two bodies of other masses that are coupled by their mass matrix, at rest, and that regularised friction of size 1
+// does not hold: from 1e-9 on it is constant, and at rest its derivative is -1e10 or more. Exact but for eps: v = a t.
+struct Breakaway {
+  double eps;
+  Sizes sizes() const { return {.nu = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::tanh;
+    r.u[0] = 2 * p.a[0] + p.a[1] - 6.0 + tanh(p.v[0] / eps);  // a = (2, 1)
+    r.u[1] = p.a[0] + 3 * p.a[1] - 6.0 + tanh(p.v[1] / eps);
+  }
+};
+
+/// x' = 1 / x, x = sqrt(x0^2 + 2 t): as the rise of a liquid in a capillary. -x is a solution as well; from an x0 far
+/// below the tolerance it may be taken.
+struct Rise {
+  Sizes sizes() const { return {.nx = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    r.x[0] = 1.0 / p.x[0] - p.k[0];
+  }
+};
+
+/// A body that friction holds at v = eps atanh(0.3), on a path of its own speed.
+struct Stuck {
+  double eps;
+  Sizes sizes() const { return {.nx = 2}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::tanh;
+    r.x[0] = 0.3 - tanh(p.x[0] / eps) - p.k[0];
+    r.x[1] = 1.0 + p.x[0] - 0.1 * p.x[1] - p.k[1];
+  }
+};
+
+struct Judged {
+  int successes = 0, wrong = 0;
+  void add(const Solution<double>& solution, double value, double exact, double tol) {
+    if (solution.outcome != Outcome::kSuccess) return;
+    ++successes;
+    if (!(std::abs(value - exact) <= 1000 * tol * std::max(1.0, std::abs(exact)))) ++wrong;
+  }
+};
+
+// The matrix of the step's start is 1e5 to 1e15 times larger than the derivatives in the stages. The first increment is
+// below round-off, whatever the residual is. Ended by it, runs gave v = -1000 and 1007, x = 1e9 and -1.41, as
+// successes.
+TEST(Increments, ATinyOneOfATooLargeMatrixEndsNothing) {
+  for (const auto& method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "lobatto_iiic_4"}) {
+    Judged breaks, rises, sticks;
+    for (const double tol : {1e-2, 1e-3, 1e-4, 1e-6}) {
+      for (IntegratorOptions options : {adaptive(tol), embedded(tol), variable(tol)}) {
+        options.step.max_steps = 20'000;
+        for (const double small : {1e-6, 1e-8, 1e-10}) {
+          const auto tableau = makeTableau<double>(method);
+          const auto broken = integrate<double>(Breakaway{small}, startOf(Breakaway{small}, {}), 1, tableau, options);
+          breaks.add(broken, broken.state.v[0], 2, tol);
+          const auto risen = integrate<double>(Rise{}, startOf(Rise{}, {.x = {small}}), 1, tableau, options);
+          rises.add(risen, std::abs(risen.state.x[0]), std::sqrt(2 + small * small), tol);
+          const auto stuck = integrate<double>(Stuck{small}, startOf(Stuck{small}, {}), 3, tableau, options);
+          sticks.add(stuck, stuck.state.x[0], 0, tol);
+        }
+      }
+    }
+    for (const auto& [name, all] : {std::pair("breaks away", breaks), {"rises", rises}, {"sticks", sticks}}) {
+      EXPECT_EQ(all.wrong, 0) << name << ' ' << method;
+      EXPECT_GE(all.successes, 18) << name << ' ' << method << ": of 36";
+    }
+  }
 }
 
 }  // namespace
