@@ -21,6 +21,9 @@ constexpr int kIterations = 50;
 constexpr double kKeepBelow = 1e-3;
 constexpr const char* kStart = "at the start";
 constexpr const char* kConsistent = "consistent (a, k, z)";
+// In a row before it is evaluated: one that a mode does not write would keep what an earlier mode has written.
+template <class Real>
+const Real kNotWritten(std::numeric_limits<double>::quiet_NaN());
 
 StartReport report(Outcome outcome, const char* place, double t, Index row, const char* what, double value,
                    double allowed = 0) {
@@ -28,6 +31,7 @@ StartReport report(Outcome outcome, const char* place, double t, Index row, cons
   text << place << ", t = " << t << ": ";
   if (row >= 0) text << "row " << row << ": ";
   text << what << " = " << value;
+  if (std::isnan(value)) text << ", as in a row that the residual does not write";
   if (allowed > 0) text << ", allowed " << allowed;
   return {outcome, text.str(), true};
 }
@@ -133,6 +137,7 @@ template <class Real>
 StartReport ConsistentStart<Real>::checkConstraints(const State<Real>& state) {
   const auto t = [&] { return sceneTime(system_, state.t); };
   for (const Level level : {Level::kPosition, Level::kVelocity}) {
+    r_.setConstant(kNotWritten<Real>);
     system_.evaluate(level, pointOf(state), VecView<Real>(r_.data(), r_.size()));
     for (Index i = 0; i < r_.size(); ++i) {
       const double value = static_cast<double>(r_[i]);
@@ -196,6 +201,7 @@ StartReport ConsistentStart<Real>::determine(State<Real>& state, const char* pla
   Index worst = 0;
   double value = 0;
   const auto evaluate = [&] {
+    r_.setConstant(kNotWritten<Real>);
     system_.evaluate(Level::kAcceleration, pointOf(state), rows);
     worst = worstRow(r_);
     value = static_cast<double>(r_[worst]);
