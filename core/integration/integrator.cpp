@@ -225,9 +225,12 @@ class Integrator<Real>::Run : public Recycled {
       h = beforeSwitch(result, size, h, least);
       return {};
     }
+    const Real before = state().t;
     const Outcome outcome = trajectory_.commit(result, step, last ? t_end : trajectory_.next().t);
-    if (isRecoverable(outcome) && !trajectory_.atSingularPosition()) {
+    const bool undefined = outcome == Outcome::kNotFinite && state().t == before;  // where a switch was searched
+    if (undefined || (isRecoverable(outcome) && !trajectory_.atSingularPosition())) {
       ++counters_.steps_rejected_newton;
+      if (undefined) too_small_ = outcome;
       h = trajectory_.shorten(size);
       return {};
     }

@@ -230,5 +230,38 @@ TEST(Events, OfARaceAreOrderedBySolvedSteps) {
   }
 }
 
+/// A tank that runs empty, x' = -sqrt x, and is closed at x = least. A step beyond it has no residual.
+struct Tank {
+  static constexpr double kLeast = 1e-9;
+  Sizes sizes() const { return {.nx = 1, .discrete = 1, .switches = 1}; }
+  template <class T>
+  void residual(const Point<T>& p, Rows<T> r) const {
+    using std::sqrt;
+    r.x[0] = (p.d[0] > T(0.5) ? T(0) : T(-sqrt(p.x[0]))) - p.k[0];
+  }
+  template <class T>
+  void switching(const Point<T>& p, T* g) const {
+    g[0] = p.d[0] > T(0.5) ? T(-1) : T(kLeast - p.x[0]);
+  }
+  template <class T>
+  void onSwitch(Index, const Point<T>&, T* d) const {
+    d[0] = T(1);
+  }
+};
+
+// The search for the switch solves steps that end where the residual is not finite. A shorter step is taken then.
+TEST(Events, AStepOfTheSearchThatIsNotFiniteShortensTheStep) {
+  for (const double tol : {1e-2, 1e-3, 1e-4, 1e-6}) {
+    for (const auto& options : {adaptive(tol), embedded(tol)}) {
+      for (const char* method : {"radau_iia_2", "radau_iia_3", "radau_iia_5", "lobatto_iiic_3"}) {
+        const Result r = run(Tank{}, startOf(Tank{}, {.x = {1}}), 3, Discontinuity::kLocate, options, method);
+        ASSERT_EQ(r.solution.outcome, Outcome::kSuccess) << method << ' ' << tol << ": " << r.solution.detail;
+        EXPECT_NEAR(r.solution.state.x[0], Tank::kLeast, 10 * tol) << method;
+        ASSERT_EQ(r.events.size(), 1u) << method;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace irk::test
