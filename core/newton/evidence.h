@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -31,15 +32,16 @@ class ResidualEvidence {
   /// Keeps the residuals of the start values. `R`: n x s.
   void keep(const Mat<Real>& R) { before_ = R.col(R.cols() - 1); }
 
-  /// Whether the stages W have at most half of the start values' residual in the last stage, or one that is below
-  /// `kappa` tolerances. `squares`: ErrorNorm::rowWeights.
-  bool holds(NewtonContext<Real>& c, const Mat<Real>& W, const Vec<double>& squares, double kappa) {
+  /// What the stages W have left of the start values' residual in the last stage: a part of it, or 0 if one of both is
+  /// below `kappa` tolerances. `squares`: ErrorNorm::rowWeights.
+  double left(NewtonContext<Real>& c, const Mat<Real>& W, const Vec<double>& squares, double kappa) {
     const Linearization<Real>& at = c.matrix.shared().at().front();
     findDiagonal(at);
     const double before = measured(before_, at, squares);
-    if (before <= kappa) return true;
-    if (!c.eq.lastResidual(W, now_)) return false;
-    return measured(now_, at, squares) <= std::max(kSlowContraction * before, kappa);
+    if (before <= kappa) return 0;
+    if (!c.eq.lastResidual(W, now_)) return std::numeric_limits<double>::infinity();
+    const double now = measured(now_, at, squares);
+    return now <= kappa ? 0 : now / before;
   }
 
   /// Whether the residual of the last stage of W is round-off: that of its change with last digits of W, `digits`.

@@ -135,7 +135,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
       }
       const bool trusted = norm <= kTrustedIncrement;
       if ((trusted && eta * norm <= kappa) || norm <= kRoundOffUnits * this->round_off_) {
-        doubted = adaptive_ && (m == 0 || doubted) && !evidence_.holds(c, W, this->row_weights_, kappa);
+        doubted = adaptive_ && (m == 0 || doubted) && !hasFallen(c, W, norm, kappa);
         if (!doubted) {
           eta_ = std::isfinite(eta) ? eta : of_step;
           return result;
@@ -146,6 +146,11 @@ class SimplifiedNewton : public NewtonBase<Real> {
       if (updates_) updates_->learn(this->implicit());
     }
     return fail(result, Outcome::kNewtonFailed);
+  }
+  // Whether the residual has fallen by as much as the last increment, if it is the last, has to contract.
+  bool hasFallen(NewtonContext<Real>& c, const Mat<Real>& W, double norm, double kappa) {
+    const double left = evidence_.left(c, W, this->row_weights_, kappa);
+    return left <= kSlowContraction && etaOf(left) * norm <= kappa;
   }
   static double etaOf(double theta) {
     return theta < 1 ? theta / (1 - theta) : std::numeric_limits<double>::infinity();
