@@ -22,11 +22,14 @@ void passTimes(const System<double>& system, State<double>& state) {
 // Local errors accumulate: at most this many tolerances at the end.
 constexpr double kGrowth = 1e3;
 
-// The two most expensive scenes use an error estimate that costs one solve per step, and keep their Jacobian longer.
+// The two most expensive scenes use an error estimate that costs one solve per step, and keep their Jacobian longer. So
+// does nand: with the default, 3 of 40 runs at tolerances about 1e-11 are off by more than kGrowth tolerances (its
+// transistors have kinks), with this estimate by at most 13.
 IntegratorOptions optionsOf(const TestSetCase& c) {
   IntegratorOptions options;
   options.tolerances.rtol = options.tolerances.atol = c.tolerance;
-  if (c.id != std::string_view("beam") && c.id != std::string_view("ringmod")) return options;
+  const std::string_view id = c.id;
+  if (id != "beam" && id != "ringmod" && id != "nand") return options;
   options.step.estimate = ErrorEstimate::kEmbedded;
   options.solver = StageSolverKind::kEigen;
   options.jacobian_point = JacobianPoint::kPredicted;
