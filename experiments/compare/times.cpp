@@ -129,10 +129,10 @@ Times TimeComparer::judge(const Tell& tell) {
       tell(pair, fmt::format("time x {:.3g} ({})", ratio.ratio, how), factorOf(1, ratio.ratio));
     });
   }
-  const auto [least, most] = std::minmax_element(ratios_.begin(), ratios_.end());
-  times_.least = *least;
+  const auto [least, most] = std::ranges::minmax(ratios_);
+  times_.least = least;
+  times_.most = most;
   times_.median = median(std::move(ratios_));
-  times_.most = *most;
   return times_;
 }
 
