@@ -132,6 +132,9 @@ least_error(d) = has_scalar ? (is("scalar", 'double') ? 1e-17 : 0) : 0
 drawnError(x) = x > 0 && x < least_error(0) ? least_error(0) : positive(x)
 errorOf(name) = !succeeded(0) ? NaN : timed(name) ? drawnError(column(name.'_over_time')) \
   : absent(name) ? NaN : drawnError(column(name))
+# The same, and where the error is too small for its reference the bound that is known, ten times the reference's accuracy.
+isBelow(d) = has_accuracy && succeeded(0) ? absent("error") && !timed("error") && !absent("reference_accuracy") : 0
+errorOrBound(name) = name eq 'error' && isBelow(0) ? drawnError(10 * column("reference_accuracy")) : errorOf(name)
 timesOf(d) = has_times ? column("reference_times") : 1
 bar(d) = 1000 * (column("rtol") > column("atol") ? column("rtol") : column("atol")) + 1e-9
 isFixed(d) = has_control ? is("control", 'fixed') : 0

@@ -1,7 +1,7 @@
 # Work against accuracy, one curve per value of a column: a term of the Jacobian, a formulation, a method. The error, the
 # largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at the tolerance
 # that was requested; with fixed steps, at the left. A ring marks a success with an error above 1000
-# tolerances.
+# tolerances. An error that is too small for its reference stands at ten times the reference's accuracy.
 #   gnuplot -e "data='results/jacobian'; out='jacobian'; variant='jacobian'; cases='block=terms_crank'" work_by.gp
 # Reads runs.csv. Options:
 #   variant (columns; each combination of their values is a curve), variants (the values to show, in this order),
@@ -30,7 +30,7 @@ curveOf(d) = valueFrom(1)
 shown(d) = words(variants) == 0 || position(variants, curveOf(0)) \
   || (variant eq 'integrator' && namesPeers(variants) && isGiven(curveOf(0)))
 chosen(case) = inCase(case) && shown(0)
-error(d) = errorOf(quantity)
+error(d) = errorOrBound(quantity)
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 
 panels = words(cases) > 1 ? words(cases) : words(costs)

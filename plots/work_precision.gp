@@ -1,6 +1,7 @@
 # Work against accuracy: CPU time or counters over the error reached, one line per number of stages (and method).
 # The error, the largest at the runs' reference times, decreases to the right. A failed run is drawn above the lines, at
-# the tolerance that was requested; a ring marks a success with an error above 1000 tolerances.
+# the tolerance that was requested; a ring marks a success with an error above 1000 tolerances. An error that is too small
+# for its reference stands at ten times the reference's accuracy.
 #   gnuplot -e "data='results/cpu_time'; out='work'; block='crank'; family='radau_iia'" work_precision.gp
 # Reads runs.csv. Options: block or scene and settings, family, formulation, stages_shown,
 # only (quoted words column=value that all rows must have), quantity (error, error_u, error_v, error_x, error_z), at_end
@@ -34,7 +35,7 @@ cost_title(c) = c eq 'cpu_s' ? 'CPU time in s' : c eq 'newton_iterations' ? 'New
 chosen(d) = ofCase(0) && allowed(only) && is("family", family) \
             && has("formulation", formulation) && position(stages_shown, sprintf("%d", column("stages")))
 row(k) = chosen(0) && isMethod(word(curves, k))
-error(d) = errorOf(quantity)
+error(d) = errorOrBound(quantity)
 reached(k) = row(k) ? error(0) : NaN
 asked(d) = absent("rtol") ? column("atol") : column("rtol") > 0 ? column("rtol") : column("atol")
 failed(k) = row(k) && !succeeded(0) ? asked(0) : outside
