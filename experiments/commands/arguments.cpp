@@ -32,6 +32,9 @@ namespace {
 
 // What follows a verb: a misspelt option gets the nearest name. CLI11 would only say that it did not expect it.
 void requireKnownOptionsOf(const CLI::App& verb, const std::vector<std::string>& arguments, std::size_t first) {
+  const CLI::App* const parent = verb.get_parent();
+  const std::string name_of_verb =
+      "irk " + (parent->get_parent() ? parent->get_name() + ' ' : std::string()) + verb.get_name();
   std::vector<std::string> known;
   for (const CLI::Option* option : verb.get_options({})) {
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
@@ -39,8 +42,8 @@ void requireKnownOptionsOf(const CLI::App& verb, const std::vector<std::string>&
   for (std::size_t i = first; i < arguments.size(); ++i) {
     const std::string name = arguments[i].substr(0, arguments[i].find('='));
     if (!name.starts_with("--") || name == "--" || std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw Misuse("unknown option '" + name + "' of irk " + verb.get_name() + "; did you mean '" +
-                 nearestName(name, known) + "'? All options: " + helpOf(arguments));
+    throw Misuse("unknown option '" + name + "' of " + name_of_verb + "; did you mean '" + nearestName(name, known) +
+                 "'? All options: " + name_of_verb + " --help");
   }
 }
 

@@ -49,6 +49,12 @@ int compareCommand(const CompareOptions& options, Streams streams) {
     return found.count == 0 ? 0 : 1;
   }
   const auto first = compare::runsIn(options.first), second = compare::runsIn(options.second);
+  if (first.contains("") != second.contains("")) {
+    const bool study_first = first.contains("");
+    throw Misuse(fmt::format("{} is the folder of a study (runs.csv), {} is not: compare two of a kind",
+                             study_first ? options.first : options.second,
+                             study_first ? options.second : options.first));
+  }
   std::size_t differences = 0;
   const auto tellMissing = [&](const auto& from, const auto& in, const char* which) {
     for (const auto& [study, file] : from) {

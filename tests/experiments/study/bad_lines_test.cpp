@@ -115,7 +115,7 @@ TEST_F(Lines, ValuesOutOfRange) {
                   {"solve", "kepler", "--methd", "gauss_2"},
                   "'--methd' of irk solve; did you mean '--method'? All options: irk solve --help"},
                  {2, {"solve", "kepler", "--newtn=full"}, "'--newtn' of irk solve; did you mean '--newton'?"},
-                 {2, {"tableau", "show", "gauss_2", "--digit", "3"}, "'--digit' of irk show; did you mean '--digits'?"},
+                 {2, {"tableau", "show", "gauss_2", "--digit", "3"}, "'--digit' of irk tableau show; did you mean '--digits'?"},
                  {2, {"solve", "kepler", "--method", "radau_ia_"}, "'' stages, but radau_ia has 1 to 100"},
                  {2, {"solve", "kepler", "--method", "gaus_3"}, "unknown method 'gaus_3'; did you mean 'gauss_3'?"},
                  {2, {"solve", "kepler", "--method", "Radau-IIA-5"}, "'Radau-IIA-5'; did you mean 'radau_iia_5'?"},
