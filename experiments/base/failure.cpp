@@ -35,8 +35,8 @@ bool isFault(const std::error_code& code) {
 }
 
 std::string& blamed() {
-  static std::string file;
-  return file;
+  static std::string files;
+  return files;
 }
 
 // The program itself throws none of these.
@@ -47,7 +47,7 @@ std::string unknownException(std::string_view what) {
 
 }  // namespace
 
-void blameExceptionsOn(const std::string& file) { blamed() = file; }
+void blameExceptionsOn(const std::string& files) { blamed() = files; }
 
 void printErrorLine(std::ostream& err, std::string_view text) { fmt::print(err, "irk: {}\n", oneLine(text)); }
 
@@ -58,14 +58,15 @@ int reportException(std::ostream& err) {
     printErrorLine(err, misuse.what());
     return kMisuseStatus;
   } catch (const std::filesystem::filesystem_error& error) {
-    printErrorLine(err, error.what());
+    printErrorLine(err, fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return isFault(error.code()) ? kFailedStatus : kMisuseStatus;
   } catch (const Failure& failure) {
     printErrorLine(err, failure.what());
   } catch (const std::ios_base::failure& error) {
     printErrorLine(err, fmt::format("input or output failed: {}", error.what()));
   } catch (const std::bad_alloc&) {
-    printErrorLine(err, "out of memory");
+    printErrorLine(err,
+                   blamed().empty() ? "out of memory" : fmt::format("out of memory; code of {} is running", blamed()));
   } catch (const std::exception& error) {
     printErrorLine(err, unknownException(error.what()));
   } catch (...) {

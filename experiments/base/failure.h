@@ -17,8 +17,8 @@ class Failure : public std::runtime_error {
 /// Prints `irk: text` as one line; control characters are escaped.
 void printErrorLine(std::ostream& err, std::string_view text);
 
-/// From now on an exception of unknown kind is attributed to this user's file; the last one given counts.
-void blameExceptionsOn(const std::string& file);
+/// From now on an exception of unknown kind is attributed to these users' files, instead of those given before.
+void blameExceptionsOn(const std::string& files);
 
 /// Call inside a catch block. Prints one line about the exception and returns the exit status: 2 for Misuse and for
 /// files that cannot be used; 1 for a full disk, exhausted memory and everything else.

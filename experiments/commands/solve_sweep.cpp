@@ -152,7 +152,7 @@ int solveSweep(const Sweep& sweep, Streams streams) {
   for (std::size_t i = 0; i < specs.size() && !interruptFlag(); ++i) {
     const RunSpec& spec = specs[i];
     const Watch watch{&interruptFlag(), {}, {}, references.of(spec)};
-    const RunRecord record = orRefused(spec, [&] { return execute(spec, watch); });
+    const RunRecord record = asRow(spec, [&] { return execute(spec, watch); });
     ++made;
     if (!record.succeeded()) ++failed;
     const std::string one_thread = record.succeeded() ? oneThreadText(spec) : "";

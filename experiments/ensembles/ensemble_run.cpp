@@ -102,7 +102,7 @@ double runEnsemble(const Ensemble& ensemble, int jobs, const std::atomic<bool>& 
     for (std::size_t i = 0; i < ensemble.grid().size(); ++i) {
       loop.turn(i, [&] {
         if (stop) return;
-        const auto record = orRefused(ensemble.spec(i), [&] { return executeMember(ensemble, i, watch, prepared); });
+        const auto record = asRow(ensemble.spec(i), [&] { return executeMember(ensemble, i, watch, prepared); });
         const std::lock_guard lock(mutex);
         done(i, record);
       });

@@ -39,9 +39,9 @@ class Ensemble {
 using MemberDone = std::function<void(std::size_t i, const RunRecord& record)>;
 
 /// Makes the runs of all members on `jobs` threads and calls `done` with each, one at a time, in the order in which
-/// they end. A member that throws Misuse has the outcome `refused`. Members that differ in their starts only share what
-/// a thread has prepared for them. The results do not depend on the number of threads. Members that are not begun when
-/// `stop` is set have no record. Returns the CPU time of all threads in seconds.
+/// they end. A member that throws has the outcome `refused` or `exception` (asRow). Members that differ in their starts
+/// only share what a thread has prepared for them. The results do not depend on the number of threads. Members that are
+/// not begun when `stop` is set have no record. Returns the CPU time of all threads in seconds.
 double runEnsemble(const Ensemble& ensemble, int jobs, const std::atomic<bool>& stop, const MemberDone& done);
 
 }  // namespace irk

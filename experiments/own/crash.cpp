@@ -2,10 +2,14 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,10 +20,11 @@
 namespace irk::own {
 namespace {
 
-FixedText of_crash, of_exit;
+FixedText of_exit, of_any_file;
+thread_local const FixedText* running = &of_any_file;  // what a crash of this thread prints
 
 void onCrash(int) {
-  of_crash.print();
+  running->print();
   _exit(1);
 }
 
@@ -40,18 +45,38 @@ void useOwnStack() {
 
 }  // namespace
 
-void explainCrashes(const std::filesystem::path& file) {
-  const bool is_source = file.extension() == ".cpp";
-  constexpr int kSilentSeconds = 20;  // far more than a step needs, but in large systems with many digits
-  blameExceptionsOn(file.string());
-  askWhenStuck(file, kSilentSeconds);
-  of_exit.set("irk: code of " + file.string() + " called exit(); it has to return\n");
+const FixedText* Running::messageOf(std::string_view code) {
+  static std::mutex mutex;
+  static auto& texts = *new std::map<std::string, std::unique_ptr<FixedText>, std::less<>>;
+  if (code.empty()) return &of_any_file;
+  const std::lock_guard lock(mutex);
+  const auto known = texts.find(code);
+  if (known != texts.end()) return known->second.get();
+  const bool is_source = code.ends_with(".cpp");
   std::string crash =
-      "irk: the program crashed while it ran code of " + file.string() + ", most likely by " +
+      "irk: the program crashed while it ran " + std::string(code) + ", most likely by " +
       (is_source ? "an index out of range or a null pointer" : "another calling sequence or an index out of range") +
       "; what was finished before is kept";
   crash += is_source && !wantsChecks() ? "; compiled with checks it tells the place: IRK_CHECKED=1 irk ...\n" : ".\n";
-  of_crash.set(crash);
+  auto text = std::make_unique<FixedText>();
+  text->set(crash);
+  return texts.emplace(code, std::move(text)).first->second.get();
+}
+
+Running::Running(const FixedText* message) : before_(running) { running = message; }
+Running::~Running() { running = before_; }
+
+void explainCrashes(const std::filesystem::path& file) {
+  constexpr int kSilentSeconds = 20;  // far more than a step needs, but in large systems with many digits
+  static std::set<std::string> given;
+  static std::string files;
+  if (given.insert(file.string()).second) files += (files.empty() ? "" : " or ") + file.string();
+  blameExceptionsOn(files);
+  askWhenStuck(files, kSilentSeconds);
+  of_exit.set("irk: code of " + files + " called exit(); it has to return\n");
+  of_any_file.set("irk: the program crashed; code of " + files +
+                  " may have written outside its arrays before; what was finished before is kept\n");
+  running = Running::messageOf("code of " + file.string());
   static const bool installed = [] {
     useOwnStack();
     struct sigaction action = {};

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <set>
 #include <vector>
 
@@ -46,6 +47,22 @@ SceneEntry entryIn(const SharedLibrary& object) {
   SceneEntry entry;
   object.get<void(SceneEntry*)>("irk_scene")(&entry);
   return entry;
+}
+
+// `make`, whose exceptions become a Misuse that names the file: the settings do not go together.
+template <class Make>
+Make refusing(Make make, const std::filesystem::path& file) {
+  return [make = std::move(make), file](const Settings& settings) {
+    try {
+      return make(settings);
+    } catch (const Misuse&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw Misuse(fmt::format("{}: memory is exhausted while the scene is made", file.string()));
+    } catch (const std::exception& error) {
+      throw Misuse(fmt::format("{}: it throws while the scene is made: {}", file.string(), error.what()));
+    }
+  };
 }
 
 /// Makes the scene of a file in multiprecision: compiles and loads the file anew when this is asked for first.
@@ -103,7 +120,7 @@ std::set<Id> knownIds() {
 }
 
 struct LoadedFile {
-  std::string scene, hash;
+  std::string scene, hash, given;
 };
 std::map<std::filesystem::path, LoadedFile>& loadedFiles() {
   static std::map<std::filesystem::path, LoadedFile> files;
@@ -118,6 +135,8 @@ std::map<Id, std::string>& hashes() {
 void registerSceneOf(SceneEntry entry, const std::filesystem::path& source) {
   static SceneEntry next;
   entry.folder = std::filesystem::absolute(source).parent_path().lexically_normal().string();
+  if (entry.make) entry.make = refusing(std::move(entry.make), source);
+  if (entry.make_big_float) entry.make_big_float = refusing(std::move(entry.make_big_float), source);
   next = std::move(entry);
   const Registration registration([] { registerScene(std::move(next)); });
   runRegistrations(source.string());
@@ -144,7 +163,7 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
   const auto before = knownIds();
   const SharedLibrary& object = load(compiled.object, given);
   // The hash is needed by what registers.
-  LoadedFile& loaded = loadedFiles()[file] = {"", hashWithData(compiled, object, file)};
+  LoadedFile& loaded = loadedFiles()[file] = {"", hashWithData(compiled, object, file), given.string()};
   const bool registers = runRegistrations(given.string()) > 0;
   if (object.find<void(SceneEntry*)>("irk_scene")) {
     SceneEntry entry = entryIn(object);
@@ -167,7 +186,7 @@ std::string loadNew(const std::filesystem::path& given, const std::filesystem::p
 std::string loadCompiled(const std::filesystem::path& given, const std::filesystem::path& file) {
   LibraryScene loaded = isFmu(given.string()) ? sceneOfFmu(given) : sceneOfLibrary(given);
   const std::string id = loaded.entry.id;
-  loadedFiles()[file] = {id, loaded.hash};
+  loadedFiles()[file] = {id, loaded.hash, given.string()};
   registerSceneOf(std::move(loaded.entry), given);
   hashes()[{"scene", id}] = loaded.hash;
   return id;
@@ -197,6 +216,11 @@ std::string hashOfFile(const std::string& file) {
   std::error_code error;
   const auto known = loadedFiles().find(std::filesystem::canonical(file, error));
   return error || known == loadedFiles().end() ? "" : known->second.hash;
+}
+
+std::string givenName(const std::string& path) {
+  const auto loaded = loadedFiles().find(path);
+  return loaded == loadedFiles().end() ? path : loaded->second.given;
 }
 
 std::string fileWithHash(std::string_view hash) {

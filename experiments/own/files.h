@@ -42,6 +42,9 @@ std::string hashOfTables(const SceneEntry& scene, const Settings& settings);
 /// The hash of a loaded file, by its name; empty for others.
 std::string hashOfFile(const std::string& file);
 
+/// How the user has named a loaded file, from its absolute path; the path itself if loadFile has not loaded it.
+std::string givenName(const std::string& path);
+
 /// The absolute path of the loaded file that has this hash; empty if there is none.
 std::string fileWithHash(std::string_view hash);
 

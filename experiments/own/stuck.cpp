@@ -34,8 +34,8 @@ void onSecond(int) {
 
 }  // namespace
 
-void askWhenStuck(const std::filesystem::path& file, int seconds) {
-  const std::string code = "code of " + file.string();
+void askWhenStuck(const std::string& files, int seconds) {
+  const std::string code = "code of " + files;
   question.set("irk: no step has ended for " + std::to_string(seconds) + " s of CPU time: does " + code +
                " not end? Ctrl-C, pressed twice, ends the program, as does a time limit of the run\n");
   end.set("irk: no step has ended for far longer than the run's time limit, as if " + code +

@@ -235,7 +235,7 @@ class Sweep {
     Watch watch{&interruptFlag(), {}, {}, [this](const RunSpec& run) { return references_.of(run); }};
     watch.cancelled = cancelled;
     watch.invariants = true;
-    return withoutMachine(orRefused(spec, [&] {
+    return withoutMachine(asRow(spec, [&] {
       return study_.trajectories ? executeWithTrajectory(spec, watch, trajectoryPath(store_.folder(), spec))
                                  : execute(spec, watch);
     }));

@@ -66,6 +66,14 @@ std::string filesOf(const RunSpec& spec) {
   return text;
 }
 
+std::string codeOf(const RunSpec& spec) {
+  std::string code;
+  for (const auto& file : items(filesOf(spec))) {
+    if (isLoaded(file)) code += (code.empty() ? "code of " : " or ") + own::givenName(file);
+  }
+  return code;
+}
+
 std::string loadOptions(std::string_view files) {
   std::string options;
   for (const auto& file : items(files)) {

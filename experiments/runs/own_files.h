@@ -15,6 +15,10 @@ void loadOwn(const std::string& file);
 /// it, or the file of a tableau. Empty for a run that needs only parts of the program.
 std::string filesOf(const RunSpec& spec);
 
+/// `code of scene.cpp`, or `code of scene.cpp or newton.cpp`: of which an exception or a crash may come. Empty for a
+/// run that needs only parts of the program.
+std::string codeOf(const RunSpec& spec);
+
 /// Parts of a command `irk solve`, from the text of filesOf: ` --load FILE` for each file to load, and the method,
 /// which for a tableau file is its absolute path.
 std::string loadOptions(std::string_view files);

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <system_error>
 
 #include "core/options/fixed_steps.h"
 #include "experiments/base/clock.h"
 #include "experiments/base/decimal.h"
+#include "experiments/base/failure.h"
+#include "experiments/own/crash.h"
 #include "experiments/own/stuck.h"
 #include "experiments/runs/fields.h"
+#include "experiments/runs/own_files.h"
 #include "experiments/runs/run_method.h"
 #include "irk/multiprecision.h"
 
@@ -41,9 +46,11 @@ class Prepared final : public PreparedRun {
       : method_(spec),
         spec_(method_.spec()),
         scene_(method_.scene()),
-        references_(references(spec_.scene, settingsAtStep(spec_))) {}
+        references_(references(spec_.scene, settingsAtStep(spec_))),
+        crash_(own::Running::messageOf(codeOf(spec_))) {}
 
   RunRecord execute(const Watch& watch) override {
+    const own::Running running(crash_);
     const WorkingDigits digits(digitsOf(spec_));
     Monitor<Real> monitor;
     const double start = threadSeconds();
@@ -88,16 +95,19 @@ class Prepared final : public PreparedRun {
   }
 
   void integrate() override {
+    const own::Running running(crash_);
     const WorkingDigits digits(digitsOf(spec_));
     last_ = method_.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
   }
 
   void setUp() override {
+    const own::Running running(crash_);
     const WorkingDigits digits(digitsOf(spec_));
     (void)method_.newIntegrator();
   }
 
   void wholeCall() override {
+    const own::Running running(crash_);
     const WorkingDigits digits(digitsOf(spec_));
     auto integrator = method_.newIntegrator();
     last_ = integrator.integrate(scene_.start, decimalNumber<Real>(spec_.t_end), {}).outcome;
@@ -226,6 +236,7 @@ class Prepared final : public PreparedRun {
   const RunSpec& spec_;
   Scene<Real> scene_;  // that of the method, with the start of the run
   std::vector<Reference> references_;
+  const own::FixedText* crash_;
   Outcome last_ = Outcome::kSuccess;
 };
 
@@ -245,6 +256,7 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   validate(spec);
   requireKnownStep(spec);
   own::stillGoing(spec.time_limit);
+  const own::Running running(own::Running::messageOf(codeOf(spec)));
   if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
   const WorkingDigits digits(digitsOf(spec));
   if (spec.scalar.isDouble()) return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
@@ -260,19 +272,44 @@ Solution<double> integrateFrom(const RunSpec& spec, const State<double>& start, 
   return method.integrate(start, method.spec().t_end, monitor);
 }
 
-RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make) {
+namespace {
+
+// The row of a run that was not integrated to an outcome.
+RunRecord rowOf(const RunSpec& spec, const char* outcome, const std::string& detail) {
+  RunRecord record;
+  record.spec = spec;
+  const bool whole = findPeer(spec.method) || isFamily(spec.method);
+  record.family = whole ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
+  record.stages = stagesInId(spec.method);
+  record.outcome = outcome;
+  record.detail = detail;
+  return record;
+}
+
+// The row of a run whose own code has thrown. Call it where the exception is caught: one of the program goes on.
+RunRecord thrown(const RunSpec& spec, const std::string& what) {
+  const std::string code = codeOf(spec);
+  if (code.empty()) throw;
+  return rowOf(spec, "exception", code + " throws: " + what);
+}
+
+}  // namespace
+
+RunRecord asRow(const RunSpec& spec, const std::function<RunRecord()>& make) {
   try {
     return make();
   } catch (const Misuse& misuse) {
-    RunRecord record;
-    record.spec = spec;
-    const bool peer = findPeer(spec.method) != nullptr;
-    const bool whole = peer || isFamily(spec.method);
-    record.family = whole ? spec.method : spec.method.substr(0, spec.method.rfind('_'));
-    record.stages = stagesInId(spec.method);
-    record.outcome = "refused";
-    record.detail = misuse.what();
-    return record;
+    return rowOf(spec, "refused", misuse.what());
+  } catch (const Failure&) {
+    throw;
+  } catch (const std::system_error&) {  // of files that the program writes
+    throw;
+  } catch (const std::bad_alloc&) {
+    return thrown(spec, "out of memory");
+  } catch (const std::exception& error) {
+    return thrown(spec, error.what());
+  } catch (...) {
+    return thrown(spec, "an exception without text");
   }
 }
 

@@ -37,7 +37,7 @@ struct RunRecord {
   RunSpec spec;
   std::string family;
   Index stages = 0;
-  std::string outcome;  ///< as irk::name(Outcome), or `refused` for a misuse inside a sweep
+  std::string outcome;  ///< as irk::name(Outcome), or `refused` or `exception` (asRow)
   std::string detail;   ///< of a failure, in one line
   double t = std::numeric_limits<double>::quiet_NaN();
   Vec<double> u, v, x, z;                ///< the last accepted state
@@ -126,7 +126,9 @@ RunRecord execute(const RunSpec& spec, const Watch& watch = {});
 /// peer.
 Solution<double> integrateFrom(const RunSpec& spec, const State<double>& start, const Watch& watch = {});
 
-/// For sweeps: returns `make()`, or a record with outcome `refused` if `make` throws Misuse.
-RunRecord orRefused(const RunSpec& spec, const std::function<RunRecord()>& make);
+/// For sweeps and studies: returns `make()`. If it throws, a record without numbers, and the reason in `detail`: with
+/// outcome `refused` for Misuse, `exception` for what a user's code throws (named by codeOf, own_files.h). Other
+/// exceptions, of a full disk or of the program itself, go on.
+RunRecord asRow(const RunSpec& spec, const std::function<RunRecord()>& make);
 
 }  // namespace irk

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -81,7 +82,7 @@ struct ForeignProblem {
 
   void residual(const Point<double>& p, Rows<double> r) const {
     const auto point = packed(model->layout(), p);
-    Few<double> rows(model->rows());
+    Few<double> rows(model->rows(), std::numeric_limits<double>::quiet_NaN());  // a row that is left out fails the step
     model->evaluate(point.data(), p.d.data(), rows.data());
     distribute(r, [&](std::size_t i) { return rows[i]; });
   }

@@ -160,6 +160,7 @@ std::string causeTitle(std::string_view outcome) {
                                                               {"drift", "drift"},
                                                               {"no_event", "no such event"},
                                                               {"inaccurate", "error bar too large"},
+                                                              {"exception", "own code throws"},
                                                               {"refused", "not allowed"}};
   const auto found = titles.find(outcome);
   return found == titles.end() ? std::string(outcome) : found->second;

@@ -30,9 +30,9 @@ std::set<std::string> namedRows(const std::string& page) {
 }
 
 TEST(Guide, TheOutcomesAreThoseOfTheProgram) {
-  std::set<std::string> outcomes{"refused"};  // in sweeps, instead of a message
+  std::set<std::string> outcomes{"refused", "exception"};  // in sweeps, instead of a message
   outcomes.insert(std::begin(kOutcomeNames), std::end(kOutcomeNames));
-  EXPECT_EQ(outcomes.size(), std::size(kOutcomeNames) + 1);
+  EXPECT_EQ(outcomes.size(), std::size(kOutcomeNames) + 2);
   static_assert(name(Outcome::kNewtonFailed) == "newton_failed" && name(Outcome::kNotFinite) == "not_finite" &&
                 name(Outcome::kSingular) == "singular" && name(Outcome::kStalled) == "stalled" &&
                 name(Outcome::kNoEvent) == "no_event" && name(Outcome::kInaccurate) == "inaccurate");

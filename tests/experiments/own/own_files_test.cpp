@@ -194,6 +194,72 @@ TEST_F(OwnFiles, ACrashIsExplainedAndChecksNameThePlace) {
   EXPECT_NE(checked.text.find("crashed while it ran code of oscillator.cpp"), std::string::npos) << checked.text;
 }
 
+/// x' = 1, whose code does `what` where x > 0.5. `with` is called with the parameter `start`.
+std::string risingScene(const std::string& id, const std::string& what, const std::string& with = "") {
+  return "#include <irk/scene_file.h>\n#include <stdexcept>\nusing namespace irk;\nnamespace {\n"
+         "template <class Real> struct Rising {\n  Real x0;\n  Sizes sizes() const { return {.nx = 1}; }\n"
+         "  template <class T> void residual(const Point<T>& p, Rows<T> r) const {\n"
+         "    r.x[0] = 1.0 - p.k[0];\n    if (p.x[0] > T(0.5)) { " +
+         what +
+         " }\n  }\n"
+         "  static Rising with(const Settings& v) {\n    const Real x0 = number<Real>(v, \"start\");\n" +
+         with +
+         "    return {x0};\n  }\n"
+         "  void start(State<Real>& s) const { s.x[0] = x0; }\n"
+         "  SceneFrame<Real> frame() const { return {.t_end = 1, .x = {{\"x\"}}}; }\n"
+         "  static SceneEntry entry() { return {.id = \"" +
+         id +
+         "\", .title = \"t\", .shows = \"s\", .parameters = {numberParameter(\"start\", \"\", \"x at 0\", \"0\", -10, "
+         "10)}}; "
+         "}\n};\n}\nIRK_SCENE(Rising)\n";
+}
+
+// The file that was loaded last is not the one whose code throws or crashes.
+TEST_F(OwnFiles, WhatThrowsIsARowThatNamesItsFile) {
+  write("thrower.cpp", risingScene("thrower", "throw std::domain_error(\"above a half\");"));
+  write("quiet.cpp", risingScene("quiet", ""));
+  write("both.toml",
+        "[[block]]\nscene = ['thrower.cpp', 'quiet.cpp']\nmethods = ['radau_iia_3']\ntolerances = [1e-4, 1e-6]\n");
+  const Ran study = irk("run both.toml --jobs 1");
+  EXPECT_TRUE(containsAll(study.text, {"4 runs in", "2 success", "2 exception"})) << study.text;
+  EXPECT_TRUE(containsAll(read("results/both/runs.csv"), {"code of thrower.cpp throws: above a half"}));
+  EXPECT_EQ(read("results/both/runs.csv").find("code of quiet.cpp"), std::string::npos);
+  const Ran sweep = irk("solve thrower.cpp --method radau_iia_3 --tol 1e-4 --set start=-2,0,-3");
+  EXPECT_EQ(sweep.status, 1) << sweep.text;
+  EXPECT_TRUE(containsAll(sweep.text, {"1 of 3 runs failed"})) << sweep.text;
+  const Ran ensemble = irk("ensemble thrower.cpp --set start=-2,0,-3");
+  EXPECT_TRUE(containsAll(ensemble.text, {"3 of 3 runs", "1 exception", "2 success"})) << ensemble.text;
+}
+
+TEST_F(OwnFiles, ACrashInAStudyNamesItsFile) {
+  write("crasher.cpp", risingScene("crasher", "*static_cast<volatile int*>(nullptr) = 1;"));
+  write("quiet.cpp", risingScene("quiet", ""));
+  for (const char* scenes : {"'crasher.cpp', 'quiet.cpp'", "'quiet.cpp', 'crasher.cpp'"}) {
+    write("both.toml",
+          "[[block]]\nscene = [" + std::string(scenes) + "]\nmethods = ['radau_iia_3']\ntolerances = [1e-4]\n");
+    const Ran study = irk("run both.toml --jobs 1 --fresh");
+    EXPECT_EQ(study.status, 1) << study.text;
+    EXPECT_TRUE(containsAll(study.text, {"crashed while it ran code of crasher.cpp,"})) << study.text;
+  }
+}
+
+TEST_F(OwnFiles, AMemberWhoseSceneCannotBeMadeIsRefused) {
+  write("picky.cpp", risingScene("picky", "", "    if (x0 > Real(1)) throw std::invalid_argument(\"too far\");\n"));
+  const Ran ensemble = irk("ensemble picky.cpp --set start=0,2,0.5");
+  EXPECT_TRUE(containsAll(ensemble.text, {"3 of 3 runs", "1 refused", "2 success", "picky.cpp: it throws", "too far"}))
+      << ensemble.text;
+}
+
+// A row that a mode leaves out kept what the mode before had written.
+TEST_F(OwnFiles, ARowThatIsNotWrittenIsNamed) {
+  write("forgets.cpp", risingScene("forgets", ""));
+  write("forgets.cpp", replaced("forgets.cpp", "r.x[0] = 1.0 - p.k[0];", ""));
+  const Ran ran = irk("solve forgets.cpp --method radau_iia_3 --tol 1e-4");
+  EXPECT_EQ(ran.status, 2) << ran.text;
+  EXPECT_TRUE(containsAll(ran.text, {"row 0: residual = nan, as in a row that the residual does not write"}))
+      << ran.text;
+}
+
 TEST_F(OwnFiles, AnUnknownMethodHasANearestOne) {
   for (const auto& [given, nearest] : {std::pair{"cvode", "'cvode_bdf'"}, {"radu_iia_5", "'radau_iia_5'"}}) {
     const Ran ran = irk(std::string("solve van_der_pol --tol 1e-5 --method ") + given);

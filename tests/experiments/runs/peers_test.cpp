@@ -50,7 +50,7 @@ TEST(Peers, AProgramWithoutGslSaysSo) {
     ASSERT_NE(findPeer(peer), nullptr);
     EXPECT_EQ(findPeer(peer)->title.find("not in this program") == std::string::npos, hasGsl());
     const RunSpec spec = peerSpec(peer, "scene=kepler");
-    const RunRecord run = orRefused(spec, [&] { return execute(spec); });
+    const RunRecord run = asRow(spec, [&] { return execute(spec); });
     EXPECT_EQ(run.outcome, hasGsl() ? "success" : "refused") << run.detail;
     if (hasGsl()) continue;
     EXPECT_TRUE(containsAll(run.detail, {"'" + peer + "'", "without GSL", "IRK_GSL=ON"}));
@@ -146,7 +146,7 @@ TEST(Peers, IllegalCombinationsAreRefused) {
     }
   }
   const RunSpec fixed = peerSpec("cvode_bdf", "scene=kepler;control=fixed;h=0.1");
-  const RunRecord row = orRefused(fixed, [&] { return execute(fixed); });
+  const RunRecord row = asRow(fixed, [&] { return execute(fixed); });
   EXPECT_EQ(row.outcome, "refused");
   EXPECT_EQ(row.family, "cvode_bdf");
 }
