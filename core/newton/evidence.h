@@ -32,6 +32,15 @@ class ResidualEvidence {
   /// Keeps the residuals of the start values. `R`: n x s.
   void keep(const Mat<Real>& R) { before_ = R.col(R.cols() - 1); }
 
+  /// Whether the residuals R have at most half of the start values' one in the last stage, or one of both is below
+  /// `kappa` tolerances.
+  bool hasHalved(NewtonContext<Real>& c, const Mat<Real>& R, const Vec<double>& squares, double kappa) {
+    const Linearization<Real>& at = c.matrix.shared().at().front();
+    findDiagonal(at);
+    now_ = R.col(R.cols() - 1);
+    return measured(now_, at, squares) <= std::max(kappa, kSlowContraction * measured(before_, at, squares));
+  }
+
   /// What the stages W have left of the start values' residual in the last stage: a part of it, or 0 if one of both is
   /// below `kappa` tolerances. `squares`: ErrorNorm::rowWeights.
   double left(NewtonContext<Real>& c, const Mat<Real>& W, const Vec<double>& squares, double kappa) {

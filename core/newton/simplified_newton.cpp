@@ -97,13 +97,14 @@ class SimplifiedNewton : public NewtonBase<Real> {
     const double last = std::max(eta_, roundOff<Real>());
     double eta = last, of_step = eta;
     double previous = 0, before_previous = 0;
-    bool doubted = false;  // increments are small enough, but the residual has not followed them
+    bool doubted = false;  // whether the residual has not followed the increments so far
     if (updates_) updates_->begin(theta_ > kWorthUpdates, this->row_weights_);
     for (int m = 0; m < limit; ++m) {
       ++result.iterations;
       ++c.counters.newton_iterations;
       if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       if (m == 0 && adaptive_) evidence_.keep(this->R_);
+      if (m == 1 && adaptive_) doubted = !evidence_.hasHalved(c, this->R_, this->row_weights_, kappa);
       const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
