@@ -35,8 +35,8 @@ constexpr double kUnknownTheta = 1;
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
 /// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place if the increment is
-/// below the tolerance. Later increments must be as small (kTrustedIncrement). No adaptive step ends after one
-/// iteration unless the residual has fallen (ResidualEvidence). With Broyden's updates the reported theta is the first
+/// below the tolerance. Later increments must be as small (kTrustedIncrement). No adaptive step ends
+/// unless its residual has fallen as well (ResidualEvidence). With Broyden's updates the reported theta is the first
 /// one, that of the matrix itself.
 ///
 /// The first theta shows how fast the error of the start values decays. That error need not contain the components that
