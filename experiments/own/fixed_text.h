@@ -9,8 +9,8 @@
 
 namespace irk::own {
 
-/// Made before the signal, because a handler may not allocate; as a static object it is not in the heap, which the code
-/// that crashes may have overwritten.
+/// Made before the signal, because a handler may not allocate. The code that crashes may have overwritten it: a static
+/// object less likely than one in the heap.
 class FixedText {
  public:
   /// Longer texts are cut.
