@@ -8,12 +8,12 @@ namespace irk {
 namespace {
 
 constexpr std::size_t kLine = 64;    // bytes of a cache line; sizes are rounded up to whole lines
-constexpr std::size_t kSizes = 128;  // larger objects, above 8 kB, are not kept
+constexpr std::size_t kSizes = 128;  // larger objects, above 8 kB, are not kept; an integrator has 5 kB
 // With the address sanitizer nothing is kept, so that it sees the use of a destroyed object.
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kMost = 0;
 #else
-constexpr int kMost = 8;
+constexpr int kMost = 8;  // members of a family that variable order uses in a run are about so many
 #endif
 
 struct Block {

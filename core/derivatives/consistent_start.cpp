@@ -31,7 +31,7 @@ StartReport report(Outcome outcome, const char* place, double t, Index row, cons
   text << place << ", t = " << t << ": ";
   if (row >= 0) text << "row " << row << ": ";
   text << what << " = " << value;
-  if (std::isnan(value)) text << ", as in a row that the residual does not write";
+  if (std::isnan(value)) text << " (not a number, or a row that the residual does not write)";
   if (allowed > 0) text << ", allowed " << allowed;
   return {outcome, text.str(), true};
 }

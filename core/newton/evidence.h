@@ -15,8 +15,8 @@ namespace irk {
 /// A matrix may be far larger than the derivatives at the stages: that of a contact, of a force of friction or of 1/x
 /// at the step's start, of which the stages are free. Then the first increment is as small as in a solved step,
 /// whatever the residual is, and so is all that the same matrix filters: the error estimate, the defect. What the
-/// increment was to remove is the residual. So it is evaluated once more, in the last stage, and measured without the
-/// matrix.
+/// increment was to remove is the residual. So it is measured without the matrix, in the last stage: in the second
+/// iteration, which evaluates it anyway, and where a small increment would end the iteration in spite of it.
 ///
 /// The measure of a stage is that of an increment of w by r_i / (D0)_ii, in tolerances: the error of the step if the
 /// matrix were D0. Rows without (D0)_ii, as those of constraints, do not count.
@@ -32,53 +32,43 @@ class ResidualEvidence {
   /// Keeps the residuals of the start values. `R`: n x s.
   void keep(const Mat<Real>& R) { before_ = R.col(R.cols() - 1); }
 
-  /// Whether the residuals R have at most half of the start values' one in the last stage, or one of both is below
-  /// `kappa` tolerances.
-  bool hasHalved(NewtonContext<Real>& c, const Mat<Real>& R, const Vec<double>& squares, double kappa) {
-    const Linearization<Real>& at = c.matrix.shared().at().front();
-    findDiagonal(at);
-    now_ = R.col(R.cols() - 1);
-    return measured(now_, at, squares) <= std::max(kappa, kSlowContraction * measured(before_, at, squares));
-  }
-
-  /// What the stages W have left of the start values' residual in the last stage: a part of it, or 0 if one of both is
+  /// What the residuals R have left of the start values' one in the last stage: a part of it, or 0 if one of both is
   /// below `kappa` tolerances. `squares`: ErrorNorm::rowWeights.
-  double left(NewtonContext<Real>& c, const Mat<Real>& W, const Vec<double>& squares, double kappa) {
-    const Linearization<Real>& at = c.matrix.shared().at().front();
-    findDiagonal(at);
-    const double before = measured(before_, at, squares);
+  double left(NewtonContext<Real>& c, const Mat<Real>& R, const Vec<double>& squares, double kappa) {
+    now_ = R.col(R.cols() - 1);
+    return partOf(sizeOf(c, before_, squares), sizeOf(c, now_, squares), kappa);
+  }
+  /// The same of the residual of the stages W, which is evaluated if it is needed; infinite if it is not finite.
+  double leftBy(NewtonContext<Real>& c, const Mat<Real>& W, const Vec<double>& squares, double kappa) {
+    const double before = sizeOf(c, before_, squares);
     if (before <= kappa) return 0;
     if (!c.eq.lastResidual(W, now_)) return std::numeric_limits<double>::infinity();
-    const double now = measured(now_, at, squares);
-    return now <= kappa ? 0 : now / before;
+    return partOf(before, sizeOf(c, now_, squares), kappa);
   }
 
   /// Whether the residual of the last stage of W is round-off: that of its change with last digits of W, `digits`.
   /// `scratch`: n x s.
   bool isRoundOff(NewtonContext<Real>& c, const Mat<Real>& W, const Mat<Real>& digits, const Vec<double>& squares,
                   Mat<Real>& scratch) {
-    const Linearization<Real>& at = c.matrix.shared().at().front();
     if (!c.eq.lastResidual(W, now_)) return false;
-    const double size = measured(now_, at, squares);
+    const double size = sizeOf(c, now_, squares);
     before_ = now_;
     for (const int sign : {1, -1}) {
       scratch = W + Real(sign) * digits;
       if (!c.eq.lastResidual(scratch, now_)) return false;
       before_ -= Real(0.5) * now_;
     }
-    return size <= kRoundOffUnits * measured(before_, at, squares);
+    return size <= kRoundOffUnits * sizeOf(c, before_, squares);
   }
 
  private:
-  void findDiagonal(const Linearization<Real>& at) {
-    if (pattern_ == at.pattern) return;
-    pattern_ = at.pattern;
-    std::fill(diagonal_.begin(), diagonal_.end(), -1);
-    for (Index j = 0; j < pattern_->n; ++j) {
-      pattern_->forEachInBlock(j, 1, j, 1, [&](Index k) { diagonal_[static_cast<std::size_t>(j)] = k; });
-    }
+  static double partOf(double before, double now, double kappa) {
+    return before <= kappa || now <= kappa ? 0 : now / before;
   }
-  double measured(const Vec<Real>& r, const Linearization<Real>& at, const Vec<double>& squares) const {
+  // In tolerances.
+  double sizeOf(NewtonContext<Real>& c, const Vec<Real>& r, const Vec<double>& squares) {
+    const Linearization<Real>& at = c.matrix.shared().at().front();
+    findDiagonal(at.pattern);
     double sum = 0;
     for (Index i = 0; i < r.size(); ++i) {
       const Index k = diagonal_[static_cast<std::size_t>(i)];
@@ -88,6 +78,14 @@ class ResidualEvidence {
       sum += squares[i] * change * change;
     }
     return std::sqrt(sum / static_cast<double>(components_));
+  }
+  void findDiagonal(const std::shared_ptr<const Pattern>& pattern) {
+    if (pattern_ == pattern) return;
+    pattern_ = pattern;
+    std::fill(diagonal_.begin(), diagonal_.end(), -1);
+    for (Index j = 0; j < pattern->n; ++j) {
+      pattern->forEachInBlock(j, 1, j, 1, [&](Index k) { diagonal_[static_cast<std::size_t>(j)] = k; });
+    }
   }
 
   Index components_;

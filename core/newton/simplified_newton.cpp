@@ -35,9 +35,9 @@ constexpr double kUnknownTheta = 1;
 /// HW II (IV.8): simplified Newton with the increment test
 ///   eta |dw| <= kappa,  eta = theta / (1 - theta),  theta = |dw_m| / |dw_{m-1}|.
 /// In the first iteration theta is unknown; the last step's eta, raised to 0.8, takes its place if the increment is
-/// below the tolerance. Later increments must be as small (kTrustedIncrement). No adaptive step ends
-/// unless its residual has fallen as well (ResidualEvidence). With Broyden's updates the reported theta is the first
-/// one, that of the matrix itself.
+/// below the tolerance. Later increments must be as small (kTrustedIncrement). Nor does an
+/// adaptive step end unless its residual has fallen (ResidualEvidence). With Broyden's updates the reported theta is
+/// the first one, that of the matrix itself.
 ///
 /// The first theta shows how fast the error of the start values decays. That error need not contain the components that
 /// the matrix solves worst; they show from the third increment on. Where kappa is limited by round-off (tight
@@ -104,7 +104,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
       ++c.counters.newton_iterations;
       if (!this->residual(c, W)) return fail(result, Outcome::kNotFinite);
       if (m == 0 && adaptive_) evidence_.keep(this->R_);
-      if (m == 1 && adaptive_) doubted = !evidence_.hasHalved(c, this->R_, this->row_weights_, kappa);
+      if (m == 1 && adaptive_) doubted = evidence_.left(c, this->R_, this->row_weights_, kappa) > kSlowContraction;
       const double norm = this->update(c, c.matrix, W, updates_ ? &*updates_ : nullptr);
       if (!std::isfinite(norm)) return fail(result, Outcome::kNotFinite);
       if (m > 0) {
@@ -150,7 +150,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
   }
   // Whether the residual has fallen by as much as the last increment, if it is the last, has to contract.
   bool hasFallen(NewtonContext<Real>& c, const Mat<Real>& W, double norm, double kappa) {
-    const double left = evidence_.left(c, W, this->row_weights_, kappa);
+    const double left = evidence_.leftBy(c, W, this->row_weights_, kappa);
     return left <= kSlowContraction && etaOf(left) * norm <= kappa;
   }
   static double etaOf(double theta) {
@@ -178,7 +178,7 @@ class SimplifiedNewton : public NewtonBase<Real> {
     c.matrix.solve(this->R_.rightCols(this->R_.cols() - this->first_));
     return c.norm.increment(this->R_, this->first_, this->row_weights_);
   }
-  // The same of an increment that the matrix makes too small (ResidualEvidence).
+  // Whether the residual of the last stage is round-off: where the matrix makes all increments too small to tell.
   bool isRoundOffOfLast(NewtonContext<Real>& c, const Mat<Real>& W) {
     lastDigits(c, W);
     return evidence_.isRoundOff(c, W, change_, this->row_weights_, changed_);

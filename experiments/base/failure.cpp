@@ -58,7 +58,8 @@ int reportException(std::ostream& err) {
     printErrorLine(err, misuse.what());
     return kMisuseStatus;
   } catch (const std::filesystem::filesystem_error& error) {
-    printErrorLine(err, fmt::format("{}: {}", error.path1().string(), error.code().message()));
+    const std::string path = error.path1().string();
+    printErrorLine(err, path.empty() ? error.what() : fmt::format("{}: {}", path, error.code().message()));
     return isFault(error.code()) ? kFailedStatus : kMisuseStatus;
   } catch (const Failure& failure) {
     printErrorLine(err, failure.what());
@@ -66,7 +67,7 @@ int reportException(std::ostream& err) {
     printErrorLine(err, fmt::format("input or output failed: {}", error.what()));
   } catch (const std::bad_alloc&) {
     printErrorLine(err,
-                   blamed().empty() ? "out of memory" : fmt::format("out of memory; code of {} is running", blamed()));
+                   blamed().empty() ? "out of memory" : fmt::format("out of memory, maybe by code of {}", blamed()));
   } catch (const std::exception& error) {
     printErrorLine(err, unknownException(error.what()));
   } catch (...) {

@@ -23,7 +23,7 @@ void onSignal(int signal) {
 
 void onAlarm(int) {
   constexpr std::string_view kText =
-      "irk: nothing has ended for 60 s after the interrupt: the program ends; what was finished before is kept\n";
+      "irk: 60 s after the interrupt the program is still at work: it ends now; what was finished before is kept\n";
   const auto written = write(STDERR_FILENO, kText.data(), kText.size());
   static_cast<void>(written);  // nothing is left to be done
   _exit(kInterruptedStatus);

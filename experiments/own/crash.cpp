@@ -68,6 +68,8 @@ Running::~Running() { running = before_; }
 
 void explainCrashes(const std::filesystem::path& file) {
   constexpr int kSilentSeconds = 20;  // far more than a step needs, but in large systems with many digits
+  static std::mutex mutex;            // a run in multiprecision compiles its scene anew
+  const std::lock_guard lock(mutex);
   static std::set<std::string> given;
   static std::string files;
   if (given.insert(file.string()).second) files += (files.empty() ? "" : " or ") + file.string();

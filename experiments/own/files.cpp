@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <set>
 #include <vector>
 
@@ -57,8 +56,6 @@ Make refusing(Make make, const std::filesystem::path& file) {
       return make(settings);
     } catch (const Misuse&) {
       throw;
-    } catch (const std::bad_alloc&) {
-      throw Misuse(fmt::format("{}: memory is exhausted while the scene is made", file.string()));
     } catch (const std::exception& error) {
       throw Misuse(fmt::format("{}: it throws while the scene is made: {}", file.string(), error.what()));
     }

@@ -42,12 +42,12 @@ std::function<Outcome()> interruption(const Watch& watch, double start, double l
 template <class Real, class Method>
 class Prepared final : public PreparedRun {
  public:
-  explicit Prepared(const RunSpec& spec)
+  Prepared(const RunSpec& spec, const own::FixedText* crash)
       : method_(spec),
         spec_(method_.spec()),
         scene_(method_.scene()),
         references_(references(spec_.scene, settingsAtStep(spec_))),
-        crash_(own::Running::messageOf(codeOf(spec_))) {}
+        crash_(crash) {}
 
   RunRecord execute(const Watch& watch) override {
     const own::Running running(crash_);
@@ -236,7 +236,7 @@ class Prepared final : public PreparedRun {
   const RunSpec& spec_;
   Scene<Real> scene_;  // that of the method, with the start of the run
   std::vector<Reference> references_;
-  const own::FixedText* crash_;
+  const own::FixedText* crash_;  // what a crash of the run's own code prints
   Outcome last_ = Outcome::kSuccess;
 };
 
@@ -256,11 +256,12 @@ std::unique_ptr<PreparedRun> prepare(const RunSpec& spec) {
   validate(spec);
   requireKnownStep(spec);
   own::stillGoing(spec.time_limit);
-  const own::Running running(own::Running::messageOf(codeOf(spec)));
-  if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec);
+  const own::FixedText* const crash = own::Running::messageOf(codeOf(spec));
+  const own::Running running(crash);
+  if (findPeer(spec.method)) return std::make_unique<Prepared<double, PeerMethod>>(spec, crash);
   const WorkingDigits digits(digitsOf(spec));
-  if (spec.scalar.isDouble()) return std::make_unique<Prepared<double, RungeKutta<double>>>(spec);
-  return std::make_unique<Prepared<BigFloat, RungeKutta<BigFloat>>>(spec);
+  if (spec.scalar.isDouble()) return std::make_unique<Prepared<double, RungeKutta<double>>>(spec, crash);
+  return std::make_unique<Prepared<BigFloat, RungeKutta<BigFloat>>>(spec, crash);
 }
 
 RunRecord execute(const RunSpec& spec, const Watch& watch) { return prepare(spec)->execute(watch); }

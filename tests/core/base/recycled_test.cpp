@@ -62,12 +62,6 @@ TEST(Recycled, AtMostEightBlocksOfASizeAreKept) {
   EXPECT_EQ(address(next.get()) == begins[7], kKeeps);
 }
 
-TEST(Recycled, AnotherThreadMayDestroyAnObject) {
-  auto object = std::make_unique<Large<2000>>();
-  std::thread([own = std::move(object)]() mutable { own.reset(); }).join();
-  EXPECT_EQ(object, nullptr);
-}
-
 // As an object of static storage: it is destroyed after the thread's list of free blocks, and its memory is not kept.
 TEST(Recycled, AnObjectMayOutliveTheListOfItsThread) {
   int destroyed = 0;

@@ -52,6 +52,32 @@ TEST(FigureCurves, WorkPrecision) {
   expectPoints(several.marks('c', 1, kLog, kLog), runPoints("error", "factorizations", 3, 7), "c");
 }
 
+// A method that is more accurate than the reference must not be missing: what is known is the bound.
+TEST(FigureCurves, WorkDrawsErrorsBelowTheReferencesAccuracyAtTheBound) {
+  auto columns = kRunColumns;
+  columns.push_back("reference_accuracy");
+  for (const std::string script : {"work_precision.gp", "work_by.gp"}) {
+    Drawing drawing;
+    std::vector<Cells> rows;
+    for (const char* error : {"1e-4", "nan"}) {
+      rows.push_back(
+          run(static_cast<int>(rows.size()) + 1,
+              {{"scene", "e5"}, {"method", "gauss_3"}, {"family", "gauss"}, {"stages", "3"}, {"error", error}}));
+      rows.back()["reference_accuracy"] = "1e-10";
+    }
+    drawing.put("runs.csv", columns, rows);
+    for (const std::string quantity : {"error", "error_z"}) {
+      const Svg svg = drawing.draw(
+          script, fmt::format("{}; quantity='{}'",
+                              script == "work_by.gp" ? "variant='method'; cases='e5'" : "scene='e5'; family='gauss'",
+                              quantity));
+      const auto marks = svg.marks('a', 1, kLog, kLog);
+      ASSERT_EQ(marks.size(), 2u) << script;
+      EXPECT_EQ(std::abs(std::log10(marks[1].x) + 9) < 0.1, quantity == "error") << script << ' ' << marks[1].x;
+    }
+  }
+}
+
 // E5 reports errors of 1e-188 once its components have all but vanished; without a least error nothing else is legible.
 TEST(FigureCurves, WorkDrawsNoErrorBelowRoundOffOfDouble) {
   for (const auto& [scalar, least] : {std::pair("double", 1e-17), std::pair("mp50", 1e-64)}) {
